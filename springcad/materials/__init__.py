@@ -1,0 +1,1 @@
+"""Material values and shop rules, each with its source."""
