@@ -1,0 +1,1 @@
+"""Planar geometry: outlines, ribbons, splines, biarcs, offsets, clearance; numbers in and out."""
