@@ -1,0 +1,1 @@
+"""Pure physics of compliant elements: floats and arrays in, floats and arrays out."""

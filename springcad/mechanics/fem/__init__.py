@@ -1,0 +1,1 @@
+"""Plane-stress finite elements for large deflections, with contact: the second opinion."""
