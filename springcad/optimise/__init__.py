@@ -1,0 +1,1 @@
+"""Multi-start constrained minimisation: seeded, counted in starts, never in seconds."""
