@@ -1,0 +1,31 @@
+"""Rotary flexure spring (paper 004): a ring of tapered flexures round a toothed camshaft.
+
+Importing this package is cheap; what is slow to load is loaded when a function is called.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from springcad.kinds.rotary_flexure.spec import SPEC_MODEL, TEMPLATE
+
+if TYPE_CHECKING:
+    from springcad.result import Check, Progress, Result
+    from springcad.spec.source import Spec
+
+__all__ = ["SPEC_MODEL", "TEMPLATE", "check_spec", "design_spec"]
+
+
+def check_spec(spec: Spec) -> tuple[Check, ...]:
+    """Closed-form checks of a spec of this kind, well under a second."""
+    from springcad.kinds.rotary_flexure.feasibility import feasibility_checks
+    from springcad.kinds.rotary_flexure.inputs import case_of
+
+    return feasibility_checks(case_of(spec.model))
+
+
+def design_spec(spec: Spec, progress: Progress) -> Result:
+    """Design ring and camshaft; InfeasibleError when no part can meet the spec."""
+    from springcad.kinds.rotary_flexure.design import design_spring
+
+    return design_spring(spec, progress)

@@ -1,0 +1,289 @@
+"""The camshaft of a ring of flexures: its exact flanks, its outline and what it must bear.
+
+Paper 004 leaves the camshaft open. Here each direction of motion has the conjugate flank of the
+wanted torque law, so the torque is exact whatever the flexure's own nonlinearity and asymmetry.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+import shapely
+import shapely.affinity
+from numpy.typing import NDArray
+
+from springcad.errors import InfeasibleError
+from springcad.geometry.outline import Arc, Circle, Line, Outline, Piece, Profile
+from springcad.geometry.outline_ops import contour_points, piece_end
+from springcad.geometry.polyline import rotate_vectors
+from springcad.geometry.transform import rotate
+from springcad.kinds.rotary_flexure.cam_slot import Rest, Slot, flank_points, tooth_space
+from springcad.kinds.rotary_flexure.flexure_contact import (
+    NOSE_ALLOWANCE,
+    flexure_part,
+    global_points,
+    tip_outlines,
+)
+from springcad.kinds.rotary_flexure.room import hub_shear_stress
+from springcad.mechanics.beam import PreparedBeam, contact_load, unloaded_points
+from springcad.mechanics.cam_contact import Seat, seat
+from springcad.mechanics.conjugate import Flank, conjugate_flank
+from springcad.mechanics.contact import contact_modulus, peak_pressure
+
+Floats = NDArray[np.float64]
+
+ANGLES = 50
+"""Angles up to the deflection at which a flank is solved, evenly spaced from the first step; the
+flank between them deviates by less than 1 nm."""
+SHARES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
+"""Shares of the deflection tried to say how far a flexure can be bent at all."""
+_CHORD = 1e-8
+"""Distance between the slot and the chords that stand for it where clearance is measured (m)."""
+
+
+@dataclass(frozen=True)
+class CamshaftInputs:
+    """What the camshaft follows from, SI.
+
+    Attributes:
+        root_radius: R, where the flexures begin.
+        count: number of flexures and of teeth.
+        nose_station: where the flexure's round nose begins, the contact at rest.
+        pad_start: where its straight pad of constant thickness begins.
+        deflection: largest angle in each direction.
+        torque, energy: of the whole spring over the angle (a magnitude), energy from zero.
+        poisson_ratio: of flexure and camshaft, both of the flexure's elastic modulus.
+        bore_radius: of the camshaft, 0 for none.
+        backlash: tangential play of the unloaded tips at the contact radius, both sides together.
+        bottom_clearance: radial clearance of the noses at rest, at least.
+        overrange: share of the deflection by which the flanks go on.
+        smallest_radius: of curvature of the flanks.
+    """
+
+    root_radius: float
+    count: int
+    nose_station: float
+    pad_start: float
+    deflection: float
+    torque: Callable[[Floats], Floats]
+    energy: Callable[[Floats], Floats]
+    poisson_ratio: float
+    bore_radius: float = 0.0
+    backlash: float = 0.0
+    bottom_clearance: float = 0.1e-3
+    overrange: float = 0.04
+    smallest_radius: float = 0.15e-3
+
+
+@dataclass(frozen=True)
+class Camshaft:
+    """The camshaft as a part, and its loads.
+
+    Attributes:
+        profile: outline and bore, in the frame in which flexure 0 lies at angle 0 at rest.
+        slot: one tooth space.
+        flanks: of directions +1 and −1, to the end of the overrange.
+        tooth_thickness: smallest thickness of a tooth (m).
+        tooth_height: from the bottom to the tip circle (m).
+        tooth_stress: bending stress at a tooth's foot under the largest force, an estimate: a
+            cantilever of the smallest thickness from the bottom's centre to the tip circle, the
+            force across it, no notch (Pa).
+        hub_stress: torsion of the round core inside the slots, without notch (Pa).
+        pressure: Hertzian pressure on the flanks (2, A), pad flat, flank radius as drawn (Pa).
+        overlap: how deep the tips, at rest and deformed, cut into the teeth anywhere (m).
+    """
+
+    profile: Profile
+    slot: Slot
+    flanks: tuple[Flank, Flank]
+    tooth_thickness: float
+    tooth_height: float
+    tooth_stress: float
+    hub_stress: float
+    pressure: Floats
+    overlap: float
+
+
+def flank(beam: PreparedBeam, inputs: CamshaftInputs, direction: int) -> Flank:
+    """The conjugate flank of one direction.
+
+    Raises:
+        InfeasibleError: the contact would leave the pad, or no bent shape gives the torque law.
+    """
+    try:
+        return _flank(beam, inputs, direction)
+    except ArithmeticError as error:
+        reached = 0.0
+        for share in SHARES:
+            reached = share * inputs.deflection
+            try:
+                _flank(beam, replace(inputs, deflection=reached), direction)
+            except (ArithmeticError, InfeasibleError):
+                reached = 0.0
+            else:
+                break
+        claim = "deflection up to which a bent shape of the flexures gives the torque law"
+        raise InfeasibleError(claim, reached, inputs.deflection, "rad") from error
+
+
+def _flank(beam: PreparedBeam, inputs: CamshaftInputs, direction: int) -> Flank:
+    """The same; ArithmeticError where the beam model does not converge."""
+    steps = round(ANGLES * (1.0 + inputs.overrange))
+    angle = inputs.deflection * np.arange(1, steps + 1) / ANGLES
+    return conjugate_flank(
+        flexure_part(beam, inputs.root_radius, direction),
+        angle,
+        inputs.torque(angle),
+        inputs.energy(angle),
+        count=inputs.count,
+        direction=direction,
+        station=inputs.nose_station,
+        station_limits=_pad(beam, inputs),
+    )
+
+
+def _pad(beam: PreparedBeam, inputs: CamshaftInputs) -> tuple[float, float]:
+    """Stations between which a flexure may touch the camshaft."""
+    lam = float(beam.beam.half_thickness(np.array([inputs.nose_station]))[0])
+    return inputs.pad_start, inputs.nose_station + NOSE_ALLOWANCE * lam
+
+
+def design_camshaft(beam: PreparedBeam, inputs: CamshaftInputs) -> Camshaft:
+    """Flanks, outline, strength and clearance.
+
+    Raises:
+        InfeasibleError: the contact would leave the pad, a flank would be too sharp, or no tooth
+            is left between two tips.
+    """
+    flanks = (flank(beam, inputs, 1), flank(beam, inputs, -1))
+    slot = tooth_space(
+        flanks,
+        _rest(beam, inputs),
+        smallest_radius=inputs.smallest_radius,
+        backlash=inputs.backlash,
+        bottom_clearance=inputs.bottom_clearance,
+    )
+    if inputs.bore_radius >= slot.bottom_radius:
+        raise InfeasibleError(
+            "the camshaft's bore cuts its slots", inputs.bore_radius, slot.bottom_radius, "m"
+        )
+    profile = camshaft_profile(slot, inputs.count, inputs.bore_radius)
+    modulus = contact_modulus(*(beam.beam.elastic_modulus, inputs.poisson_ratio) * 2)
+    radius = np.stack([np.maximum(side.radius, inputs.smallest_radius) for side in flanks])
+    force = np.stack([side.force for side in flanks])
+    thickness = _tooth_thickness(slot, inputs.count)
+    lever = slot.tip_radius - slot.foot_radius
+    torque = float(inputs.torque(flanks[0].angle[-1:])[0])
+    return Camshaft(
+        profile=profile,
+        slot=slot,
+        flanks=flanks,
+        tooth_thickness=thickness,
+        tooth_height=slot.tip_radius - slot.bottom_radius,
+        tooth_stress=float(force.max()) * 6.0 * lever / (beam.beam.thickness * thickness**2),
+        hub_stress=float(hub_shear_stress(torque, slot.bottom_radius, inputs.bore_radius)),
+        pressure=peak_pressure(force, beam.beam.thickness, 1.0 / radius, modulus),
+        overlap=max(slot.preload, *(overlap(beam, inputs, slot, side) for side in flanks)),
+    )
+
+
+def camshaft_profile(slot: Slot, count: int, bore_radius: float) -> Profile:
+    """The outline with ``count`` slots, counter-clockwise, and the bore if there is one."""
+    pitch = 2.0 * np.pi / count
+    lower, upper = slot.opening
+    land = pitch - (upper - lower)
+    if land <= 0.0:
+        raise InfeasibleError(
+            "no camshaft tooth is left between two tips", land * slot.tip_radius, 0.0, "m"
+        )
+    tooth: tuple[Piece, ...] = (*slot.pieces, Arc((0.0, 0.0), slot.tip_radius, upper, land))
+    pieces = tuple(rotate(piece, pitch * i) for i in range(count) for piece in tooth)
+    inner = (Circle((0.0, 0.0), bore_radius),) if bore_radius > 0.0 else ()
+    return Profile(Outline(pieces), inner)
+
+
+def _rest(beam: PreparedBeam, inputs: CamshaftInputs) -> Rest:
+    """The unloaded tip."""
+    nose = np.array([inputs.nose_station])
+    point, angle = unloaded_points(beam, nose)
+    return Rest(
+        nose_center=global_points(point[0], inputs.root_radius),
+        inward=-np.array([np.cos(angle[0]), np.sin(angle[0])]),
+        half_thickness=float(beam.beam.half_thickness(nose)[0]),
+    )
+
+
+def seated(
+    beam: PreparedBeam, inputs: CamshaftInputs, slot: Slot, side: Flank, friction: float = 0.0
+) -> Seat:
+    """The ring on the camshaft as drawn, at the angles of ``side``, that flank alone.
+
+    Angles are those of the camshaft less its free play. Angles at which a flexure would touch with
+    its nose, not its pad, are left out.
+
+    ``friction`` is the tangential over the normal force on the flexures, positive towards their
+    tips: with a coefficient μ it is −μ sign(sliding) while the angle grows (see ``Flank``) and
+    +μ sign(sliding) while it falls.
+    """
+    found = seat(
+        flexure_part(beam, inputs.root_radius, side.direction, friction),
+        flank_points(slot, side.direction),
+        side.angle + slot.free_play,
+        count=inputs.count,
+        direction=side.direction,
+        force=side.force,
+        station=side.station,
+        station_limits=_pad(beam, inputs),
+    )
+    return replace(found, angle=found.angle - slot.free_play)
+
+
+def overlap(beam: PreparedBeam, inputs: CamshaftInputs, slot: Slot, side: Flank) -> float:
+    """How deep the deformed tip cuts into the teeth beside its slot, at the angles of ``side``.
+
+    Tested both ways with dense points, of the tip against the slot and of the slot against the
+    tip; arcs are chords within 10 nm.
+    """
+    space = slot_polygon(slot)
+    boundary = np.asarray(space.exterior.coords)
+    points = shapely.points(boundary[np.hypot(*boundary.T) < (1.0 + 1e-9) * slot.tip_radius])
+    deepest = 0.0
+    turned = replace(side, angle=side.angle + slot.free_play)
+    for tip in tips_in_slot(beam, inputs, turned):
+        inside = tip[np.hypot(*tip.T) < slot.tip_radius]
+        deepest = max(deepest, float(shapely.distance(shapely.points(inside), space).max()))
+        outline = shapely.Polygon(tip)
+        shapely.prepare(outline)
+        covered = points[shapely.contains(outline, points)]
+        if len(covered):
+            deepest = max(deepest, float(shapely.distance(covered, outline.exterior).max()))
+    return deepest
+
+
+def tips_in_slot(beam: PreparedBeam, inputs: CamshaftInputs, side: Flank) -> Floats:
+    """Outlines (A, M, 2) of the deformed tip in the camshaft's frame at the angles of a flank."""
+    states = contact_load(beam, side.station, side.force, side.direction)
+    reach = 3.0 * (inputs.nose_station - inputs.pad_start)
+    tips = tip_outlines(beam, states, inputs.nose_station, reach)
+    around = global_points(tips, inputs.root_radius)
+    turn = np.repeat(-side.direction * side.angle, around.shape[1])
+    return rotate_vectors(around.reshape(-1, 2), turn).reshape(around.shape)
+
+
+def slot_polygon(slot: Slot) -> shapely.Polygon:
+    """The slot as a polygon, open outside the tip circle by as much as it is deep."""
+    ends = [piece_end(slot.pieces[i], -i)[0] for i in (0, -1)]
+    outside = [(2.0 - slot.bottom_radius / slot.tip_radius) * end for end in ends]
+    corners = [(float(x), float(y)) for x, y in (ends[1], outside[1], outside[0], ends[0])]
+    opening = tuple(Line(a, b) for a, b in pairwise(corners))
+    return shapely.Polygon(contour_points(Outline((*slot.pieces, *opening)), _CHORD))
+
+
+def _tooth_thickness(slot: Slot, count: int) -> float:
+    """Smallest distance between a slot and the next."""
+    space = slot_polygon(slot)
+    pitch = 2.0 * np.pi / count
+    return float(space.distance(shapely.affinity.rotate(space, pitch, (0, 0), use_radians=True)))

@@ -1,0 +1,214 @@
+"""The claims that a finished rotary flexure spring must stand up to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springcad.kinds.rotary_flexure.law import bending_stress
+from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.mechanics.section import curved_beam_factor
+from springcad.result import Check, check
+
+Floats = NDArray[np.float64]
+
+STIFFNESS_TOLERANCE = 0.01
+"""Largest deviation of the secant stiffness at the design deflection."""
+STRESS_TOLERANCE = 0.005
+"""Stress counts as met within this share: straight flexures are sized for stiffness, not stress."""
+BEND_TOLERANCE = 1e-4
+"""Share by which a search may pass the bend limit."""
+DEFORMED_GAP = 5e-5
+"""Gap between deformed flexures below which tolerances of cut and model may make them touch, m."""
+CAM_INTERFERENCE = 5e-6
+"""Depth to which the calculated tips may cut into the camshaft, m: below what a cut resolves."""
+PRESSURE_OVER_ULTIMATE = 1.6
+"""Hertzian pressure over tensile strength that hardened steel bears statically (common limit)."""
+
+
+def spring_checks(spring: Spring) -> tuple[Check, ...]:
+    """All checks, those made before the search first."""
+    return (
+        *spring.feasibility,
+        *_stiffness(spring),
+        *_stress(spring),
+        *_flexures(spring),
+        *_camshaft(spring),
+    )
+
+
+def law_stress(spring: Spring) -> float:
+    """Largest nominal stress at full deflection by the design law (004, Eq. 1), Pa."""
+    return float(np.max(_law_stresses(spring)[0]))
+
+
+def _law_stresses(spring: Spring) -> tuple[Floats, Floats]:
+    """Nominal and inner-fibre stress of small deflections along the finished flexure, Pa."""
+    ribbon, law = spring.found.ribbon, spring.law
+    points = ribbon.at(ribbon.dense_stations(800))
+    lever = np.maximum(law.span - points.x, 0.0)
+    nominal = np.asarray(
+        bending_stress(law.force, lever, points.half_thickness, law.inputs.thickness)
+    )
+    return nominal, nominal * curved_beam_factor(np.abs(points.curvature) * points.half_thickness)
+
+
+def root_fillet_stress(spring: Spring) -> float:
+    """Largest stress in the root fillets at full deflection, Pa."""
+    nominal = max(float(stroke.full.nominal_stress[0, 0]) for stroke in spring.strokes)
+    return nominal * spring.sized.root.fillet_stress_factor
+
+
+def _stiffness(spring: Spring) -> Iterator[Check]:
+    wanted = spring.law.inputs.stiffness
+    source = "forward analysis of the camshaft as drawn; beam with large deflections"
+    for stroke in spring.strokes:
+        secant = float(stroke.torque[-1] / stroke.angle[-1])
+        yield check(
+            f"secant stiffness {_way(stroke.direction)}, deviation from the target",
+            abs(secant / wanted - 1.0), "<=", STIFFNESS_TOLERANCE, "1", source=source,
+        )  # fmt: skip
+
+
+def _stress(spring: Spring) -> Iterator[Check]:
+    case, allowed = spring.case, spring.law.inputs.design_stress
+    yielding = case.yield_strength
+    nominal = max(float(stroke.nominal_stress.max()) for stroke in spring.strokes)
+    local = max(float(stroke.local_stress.max()) for stroke in spring.strokes)
+    beam = "beam with large deflections, bending and axial force, both directions"
+    if spring.spec.stress == "nominal":
+        yield check(
+            "nominal stress by the design law", law_stress(spring), "<=",
+            (1.0 + STRESS_TOLERANCE) * allowed, "Pa",
+            source=f"004, Eq. 1, small deflections; design stress + {STRESS_TOLERANCE:.1%}",
+        )  # fmt: skip
+        yield check(
+            "nominal stress at large deflections", nominal, "<=", allowed, "Pa", source=beam,
+            otherwise="warn", remedy=_reached(spring, allowed, "nominal"),
+        )  # fmt: skip
+    else:
+        yield check(
+            "inner-fibre stress by the design law", float(np.max(_law_stresses(spring)[1])), "<=",
+            (1.0 + STRESS_TOLERANCE) * allowed, "Pa",
+            source=f"004, Eq. 1, curved-beam factor; design stress + {STRESS_TOLERANCE:.1%}",
+        )  # fmt: skip
+        yield check(
+            "inner-fibre stress at large deflections", local, "<=", allowed, "Pa",
+            source=f"{beam}, curved-beam factor", otherwise="warn",
+            remedy=_reached(spring, allowed, "local"),
+        )  # fmt: skip
+    yield check(
+        "inner-fibre stress against yield", local, "<=", yielding, "Pa",
+        source=f"{beam}, curved-beam factor; material data",
+        otherwise="warn" if spring.spec.stress == "nominal" else "fail",
+        remedy="lower flexures.bend_limit or material.design_stress",
+    )  # fmt: skip
+    yield check(
+        "root fillet stress against yield", root_fillet_stress(spring), "<=", yielding,
+        "Pa", source="beam, times the stress factor of finite elements of the root; material",
+        otherwise="warn",
+        remedy=f"this part reaches it at {_fillet_yields(spring):.1f} deg; a larger "
+        "flexures.root_fillet lowers it, and brings the flexures closer together",
+    )  # fmt: skip
+
+
+def _flexures(spring: Spring) -> Iterator[Check]:
+    ribbon, case = spring.found.ribbon, spring.case
+    yield check(
+        "half thickness x curvature", ribbon.largest_bend, "<=",
+        (1.0 + BEND_TOLERANCE) * spring.spec.flexures.bend_limit, "1",
+        source="flexures.bend_limit; from 1 on the edge would fold over",
+    )  # fmt: skip
+    yield check(
+        "gap between flexures at rest", spring.found.gap, ">=", case.min_gap, "m",
+        source="polygons of the flexures; smallest gap wanted",
+    )  # fmt: skip
+    for stroke in spring.strokes:
+        yield check(
+            f"gap between deformed flexures {_way(stroke.direction)}", float(stroke.gap.min()),
+            ">=", DEFORMED_GAP, "m", source="polygons of the deformed flexures; below 0 they touch",
+            otherwise="fail" if not stroke.gap.min() >= 0.0 else "warn",
+            remedy="lower target.deflection, or raise flexures.min_gap",
+        )  # fmt: skip
+    yield check(
+        "root fillet radius", spring.fillet, ">=", spring.spec.process.rules.min_inside_radius,
+        "m", source="smallest inside radius of the process",
+    )  # fmt: skip
+    yield check(
+        "lateral balance: radial over tangential compliance of the tip", _lateral_balance(spring),
+        "<=", 0.01, "1", source="small deflections; what makes both directions alike",
+        otherwise="warn",
+    )  # fmt: skip
+
+
+def _lateral_balance(spring: Spring) -> float:
+    """|integral M y/(EI) ds| over integral M (L - x)/(EI) ds for the unloaded shape."""
+    ribbon, span = spring.found.ribbon, spring.law.span
+    points = ribbon.at(ribbon.grid.nodes)
+    lever = span - points.x
+    weight = ribbon.grid.weights * lever / points.half_thickness**3
+    return float(abs(weight @ points.y) / (weight @ lever))
+
+
+def _camshaft(spring: Spring) -> Iterator[Check]:
+    camshaft, case = spring.camshaft, spring.case
+    yielding = case.yield_strength
+    same = "camshaft taken to be of the flexures' material"
+    yield check(
+        "camshaft tooth, thinnest", camshaft.tooth_thickness, ">=", case.min_web, "m",
+        source="outline of the camshaft; thinnest web of the process",
+        remedy="raise envelope.contact_radius or lower flexures.count",
+    )  # fmt: skip
+    yield check(
+        "camshaft tooth bending against yield (estimate)", camshaft.tooth_stress, "<=", yielding,
+        "Pa", source=f"tooth as a cantilever; {same}",
+        remedy="raise envelope.contact_radius or lower flexures.count",
+    )  # fmt: skip
+    yield check(
+        "camshaft torsion inside the slots", camshaft.hub_stress, "<=", yielding / math.sqrt(3.0),
+        "Pa", source=f"round core without notches, von Mises; {same}",
+        remedy="raise envelope.contact_radius",
+    )  # fmt: skip
+    ultimate = spring.spec.material.values.ultimate_strength
+    if ultimate is not None:
+        pressure = max(float(stroke.pressure.max()) for stroke in spring.strokes)
+        yield check(
+            "contact pressure on the flanks", pressure, "<=",
+            PRESSURE_OVER_ULTIMATE * ultimate.value, "Pa",
+            source=f"Hertz, line contact; {PRESSURE_OVER_ULTIMATE} x tensile strength is a rule of "
+            f"thumb; {same}", otherwise="warn", remedy="raise envelope.thickness or flexures.count",
+        )  # fmt: skip
+    yield check(
+        "interference of camshaft and tips in the stroke", camshaft.overlap, "<=",
+        CAM_INTERFERENCE, "m", source="deformed tips against the teeth, at every angle solved",
+    )  # fmt: skip
+
+
+def _reached(spring: Spring, allowed: float, kind: Literal["nominal", "local"]) -> str:
+    """Where the stroke meets the allowed stress."""
+    angles = [
+        np.interp(allowed, getattr(stroke, f"{kind}_stress"), stroke.angle)
+        for stroke in spring.strokes
+    ]
+    peak = max(float(getattr(stroke, f"{kind}_stress").max()) for stroke in spring.strokes)
+    return (
+        f"this part reaches it at {math.degrees(min(angles)):.1f} deg; flexures sized by the law "
+        f"of small deflections carry {peak / allowed - 1.0:.1%} more at large ones"
+    )
+
+
+def _fillet_yields(spring: Spring) -> float:
+    """Deflection at which the root fillets reach yield, deg; their stress follows the tip force."""
+    share = spring.case.yield_strength / root_fillet_stress(spring)
+    angles = [
+        np.interp(share * stroke.force[-1], stroke.force, stroke.angle) for stroke in spring.strokes
+    ]
+    return math.degrees(min(angles))
+
+
+def _way(direction: int) -> str:
+    return "counter-clockwise" if direction > 0 else "clockwise"

@@ -1,0 +1,133 @@
+"""The rotary flexure spring from spec to result: law, shape, ring, camshaft, response, checks."""
+
+from __future__ import annotations
+
+from springcad.errors import InfeasibleError
+from springcad.geometry.outline import Profile
+from springcad.geometry.outline_ops import profile_area, profile_faults
+from springcad.geometry.ribbon import Ribbon
+from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
+from springcad.kinds.rotary_flexure.checks import spring_checks
+from springcad.kinds.rotary_flexure.feasibility import Case, failures, require_feasible
+from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec
+from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
+from springcad.kinds.rotary_flexure.response import stroke
+from springcad.kinds.rotary_flexure.ring import Dowels, ring_profile
+from springcad.kinds.rotary_flexure.sizing import size_flexure
+from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
+from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.kinds.rotary_flexure.summary import summarise
+from springcad.kinds.rotary_flexure.trials import (
+    BEND_LIMIT,
+    DEFLECTION,
+    TIP_THICKNESS,
+    changes_that_work,
+)
+from springcad.result import Check, Progress, Result
+from springcad.spec.source import Spec
+
+
+def design_spring(spec: Spec, progress: Progress) -> Result:
+    """Design ring and camshaft and say what they do.
+
+    Raises:
+        InfeasibleError: no part can meet the spec.
+    """
+    return summarise(spec, build_spring(rotary_spec(spec.model), progress))
+
+
+def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
+    """The spring itself, without words about it.
+
+    Raises:
+        InfeasibleError: no part can meet the spec; with changes that were tried and that work.
+    """
+    case = case_of(spec)
+    feasibility = require_feasible(case)
+    try:
+        return _spring(spec, case, feasibility, progress)
+    except InfeasibleError as error:
+        progress("no part can be made: trying what would help")
+        tried = changes_that_work(spec, (BEND_LIMIT, DEFLECTION, TIP_THICKNESS), _passes)
+        raise error.with_remedies(*tried) from error
+
+
+def _passes(spec: RotaryFlexureSpec) -> bool:
+    """Whether the spec can be designed and every check of the spring holds."""
+    case = case_of(spec)
+    if failures(case):
+        return False
+    try:
+        spring = _spring(spec, case, (), lambda _: None)
+    except InfeasibleError:
+        return False
+    return all(claim.status != "fail" for claim in spring_checks(spring))
+
+
+def _spring(
+    spec: RotaryFlexureSpec, case: Case, feasibility: tuple[Check, ...], progress: Progress
+) -> Spring:
+    law = design_law(case.inputs)
+    sized = size_flexure(spec, case, law, progress)
+    ribbon = sized.found.ribbon
+    progress("making the ring")
+    dowels = spec.mounting.dowels
+    ring = ring_profile(
+        ribbon,
+        case.inputs.root_radius,
+        case.outer_radius,
+        case.inputs.count,
+        sized.fillet,
+        sized.blend,
+        Dowels(dowels.count, dowels.radius) if dowels else None,
+    )
+    _require_valid("flexure ring", ring)
+    progress("making the camshaft")
+    inputs = camshaft_inputs(spec, case, law, ribbon)
+    camshaft = design_camshaft(sized.beam, inputs)
+    _require_valid("camshaft", camshaft.profile)
+    progress("turning the spring through its stroke")
+    clockwise, counter_clockwise = (
+        stroke(ribbon, sized.beam, camshaft, inputs, direction, spec.camshaft.friction)
+        for direction in (-1, 1)
+    )
+    return Spring(
+        spec=spec,
+        case=case,
+        law=law,
+        feasibility=feasibility,
+        sized=sized,
+        ring=ring,
+        camshaft_inputs=inputs,
+        camshaft=camshaft,
+        strokes=(counter_clockwise, clockwise),
+        mass=profile_area(ring) * case.inputs.thickness * spec.material.values.density.value,
+    )
+
+
+def camshaft_inputs(
+    spec: RotaryFlexureSpec, case: Case, law: DesignLaw, ribbon: Ribbon
+) -> CamshaftInputs:
+    """The camshaft for the linear law k theta."""
+    stiffness = law.inputs.stiffness
+    return CamshaftInputs(
+        root_radius=law.inputs.root_radius,
+        count=law.inputs.count,
+        nose_station=ribbon.length,
+        pad_start=float(ribbon.edges[-2]),
+        deflection=law.inputs.deflection,
+        torque=lambda angle: stiffness * angle,
+        energy=lambda angle: 0.5 * stiffness * angle**2,
+        poisson_ratio=spec.material.values.poisson_ratio.value,
+        bore_radius=case.camshaft_bore_radius,
+        backlash=spec.camshaft.backlash,
+    )
+
+
+def _require_valid(part: str, profile: Profile) -> None:
+    """A drawing that a shop could not cut is never written."""
+    faults = profile_faults(profile)
+    if faults:
+        raise InfeasibleError(
+            f"faults in the outline of the {part} ({'; '.join(faults)})", len(faults), 0.0, "1"
+        )

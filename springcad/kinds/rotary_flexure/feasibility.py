@@ -1,0 +1,265 @@
+"""Can any ring of flexures meet the spec? Closed forms only, before any optimisation.
+
+Each limit is necessary: a case that fails one has no design. A case that passes all may still turn
+out to have none, because the shape of a serpentine flexure is only found by optimisation.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from springcad.errors import InfeasibleError
+from springcad.kinds.rotary_flexure.law import DesignLaw, LawInputs, design_law
+from springcad.kinds.rotary_flexure.remedies import Knob, remedies
+from springcad.kinds.rotary_flexure.room import (
+    deflection_bound,
+    hub_shear_stress,
+    neighbour_gap,
+    packing_bound,
+)
+from springcad.result import Check, check
+
+Style = Literal["auto", "straight", "serpentine"]
+
+STRAIGHT_TOLERANCE = 0.0075
+"""A straight flexure counts as right within this share of f_s: half a per cent of stress, since
+stress goes as f_s^(2/3). Table I of 004 needs it: it prints 12.6 deg for 12.56 deg (f_s 1.005)."""
+DENSE = 0.80
+"""Density factor above which a solution is doubtful: 004 had difficulty above 0.55, our search
+above 0.75 to 0.83 depending on the bends allowed."""
+
+SLOT_ALLOWANCE = 2e-6
+"""By so much the arcs near rest may make a slot narrower than its tip, m."""
+DENSITY_CLAIM = "density factor within experience"
+
+ROUND_OFF = 12
+"""Decimals of a metre to which differences of typed lengths are rounded before a comparison."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One spring to be judged, SI: the law's inputs and what surrounds the flexures.
+
+    Attributes:
+        inputs: of the design law.
+        style: of the flexures; ``auto`` lets the serpentine factor decide.
+        outer_radius: of the ring.
+        yield_strength: of the material; the camshaft is taken to be of the same.
+        min_web: thinnest web that the process cuts.
+        min_gap: smallest gap wanted between neighbouring flexures, unloaded.
+        dowel_radius: of the semicircular cut-outs in the rim, 0 without dowels.
+        camshaft_bore_radius: 0 for a solid camshaft.
+        backlash: tangential play of a tip in its slot of the camshaft.
+        min_slot: narrowest slot with a round bottom that the process cuts.
+        least_gap: narrowest gap that the process cuts; ``min_gap`` may not be below it.
+    """
+
+    inputs: LawInputs
+    style: Style
+    outer_radius: float
+    yield_strength: float
+    min_web: float
+    min_gap: float
+    dowel_radius: float = 0.0
+    camshaft_bore_radius: float = 0.0
+    backlash: float = 0.0
+    min_slot: float = 0.0
+    least_gap: float = 0.0
+
+
+def resolved_style(law: DesignLaw, style: Style) -> Literal["straight", "serpentine"]:
+    """The style a design will have: ``auto`` becomes straight within STRAIGHT_TOLERANCE."""
+    if style == "auto":
+        excess = law.serpentine_factor / law.straight_factor - 1.0
+        return "straight" if excess <= STRAIGHT_TOLERANCE else "serpentine"
+    return style
+
+
+def feasibility_checks(case: Case) -> tuple[Check, ...]:
+    """All closed-form checks; those that fail carry remedies that make every one of them pass."""
+    checks = _checks(case)
+    if not any(claim.status == "fail" for claim in checks):
+        return checks
+    advice = "; or ".join(case_remedies(case))
+    return tuple(
+        replace(claim, remedy=advice) if claim.status == "fail" else claim for claim in checks
+    )
+
+
+def require_feasible(case: Case) -> tuple[Check, ...]:
+    """The checks of a feasible case; InfeasibleError with the first failing one otherwise."""
+    checks = _checks(case)
+    for claim in checks:
+        if claim.status == "fail":
+            raise InfeasibleError(
+                claim.name, claim.value, claim.limit, claim.unit, case_remedies(case)
+            )
+    return checks
+
+
+def _checks(case: Case) -> tuple[Check, ...]:
+    """Every claim, without remedies; in this order the first failing one is reported."""
+    inputs = case.inputs
+    if not 0.0 < inputs.contact_radius < inputs.root_radius:
+        return (
+            check("contact radius within the root radius", inputs.contact_radius, "<=",
+                  inputs.root_radius, "m", source="the flexures span from one to the other"),
+        )  # fmt: skip
+    law = design_law(inputs)
+    return (
+        *_material_and_process(case, law),
+        *_serpentine_factor(case, law),
+        *_density(case, law),
+        *_neighbours(case, law),
+        *_camshaft(case, law),
+    )
+
+
+def _material_and_process(case: Case, law: DesignLaw) -> tuple[Check, ...]:
+    inputs, web = case.inputs, case.min_web
+    rim = round(case.outer_radius - inputs.root_radius - case.dowel_radius, ROUND_OFF)
+    return (
+        check("design stress against yield", inputs.design_stress, "<=", case.yield_strength,
+              "Pa", source="material data"),
+        check("tip thickness", 2.0 * inputs.tip_half_thickness, ">=", web, "m",
+              source="thinnest web of the process"),
+        check("tip thickness against the root's", 2.0 * inputs.tip_half_thickness, "<=",
+              2.0 * law.root_half_thickness, "m", source="taper, 004 Eq. 2"),
+        check("gap wanted between flexures", round(case.min_gap, ROUND_OFF), ">=",
+              round(case.least_gap, ROUND_OFF), "m", source="smallest gap of the process"),
+        check("rim between root and dowels" if case.dowel_radius else "rim", rim, ">=", web, "m",
+              source="outer radius - root radius - dowel radius; thinnest web of the process"),
+    )  # fmt: skip
+
+
+def _serpentine_factor(case: Case, law: DesignLaw) -> tuple[Check, ...]:
+    """Straight flexures may be too strong but not too weak; waves cannot be shorter than straight.
+
+    Above the limit a straight flexure has (f_s / limit)^(2/3) times the design stress.
+    """
+    straight = law.straight_factor
+    source = f"004, section II-B, with the tip thickness; a straight flexure has {straight:.4f}"
+    lower = straight * (1.0 - STRAIGHT_TOLERANCE) if case.style == "auto" else straight
+    if case.style == "straight":
+        return (
+            check("serpentine factor of a straight flexure", law.serpentine_factor, "<=",
+                  straight * (1.0 + STRAIGHT_TOLERANCE), "1", source=source),
+        )  # fmt: skip
+    return (
+        check("serpentine factor (below it a straight flexure is already too soft)",
+              law.serpentine_factor, ">=", lower, "1", source=source),
+    )  # fmt: skip
+
+
+def _density(case: Case, law: DesignLaw) -> tuple[Check, ...]:
+    """Flexures and gaps must fit into the annulus; for straight ones the pinch says it exactly."""
+    if resolved_style(law, case.style) == "straight":
+        return ()
+    inputs = case.inputs
+    root, contact = inputs.root_radius, inputs.contact_radius
+    densest = float(packing_bound(root, contact, inputs.count, case.min_gap))
+    bound = deflection_bound(
+        inputs.stiffness, root, contact, inputs.thickness, inputs.design_stress,
+        inputs.elastic_modulus,
+    )  # fmt: skip
+    return (
+        check("deflection against a full disk", inputs.deflection, "<=", float(bound), "rad",
+              source="004, Eq. 10 with a density factor of 1"),
+        check("density factor", law.density_factor, "<=", densest, "1",
+              source="flexures and the smallest gaps between them fill the annulus"),
+        check(DENSITY_CLAIM, law.density_factor, "<=", DENSE, "1",
+              source="solved examples reach 0.75 to 0.83; 004 reports difficulty above 0.55",
+              otherwise="warn"),
+    )  # fmt: skip
+
+
+def straight_gap(law: DesignLaw) -> float:
+    """Gap at the pinch between straight flexures that are as thick as the stiffness asks, m."""
+    inputs = law.inputs
+    thick = law.straight_thickness_factor * law.root_half_thickness
+    return float(
+        neighbour_gap(
+            law.span, inputs.contact_radius, inputs.count, thick, inputs.tip_half_thickness
+        )
+    )
+
+
+def _neighbours(case: Case, law: DesignLaw) -> tuple[Check, ...]:
+    straight = resolved_style(law, case.style) == "straight"
+    known = math.isfinite(law.straight_thickness_factor)
+    gap = straight_gap(law) if straight and known else law.pinch_gap
+    return (
+        check("cam tooth between two tips", law.tooth_width, ">=", case.min_web, "m",
+              source="2 pi r / n - tip thickness; thinnest web of the process"),
+        check("gap between neighbours near the tips", gap, ">=", case.min_gap, "m",
+              source="pinch between tapered neighbours; the smallest gap wanted"),
+    )  # fmt: skip
+
+
+def _camshaft(case: Case, law: DesignLaw) -> tuple[Check, ...]:
+    """The cam's core ends where the noses of the tips begin; its teeth add nothing in torsion."""
+    core = law.inputs.contact_radius - law.inputs.tip_half_thickness
+    bore = case.camshaft_bore_radius
+    slot = check("camshaft slot", 2.0 * law.inputs.tip_half_thickness + case.backlash, ">=",
+                 case.min_slot + SLOT_ALLOWANCE, "m",
+                 source="tip thickness + backlash; smallest gap and twice the smallest inside "
+                 "radius of the process, 0.002 mm for the flanks' arcs")  # fmt: skip
+    wall = check("camshaft wall around its bore", round(core - bore, ROUND_OFF), ">=",
+                 case.min_web, "m",
+                 source="contact radius - tip nose - bore radius; thinnest web")  # fmt: skip
+    if core <= bore:
+        return (slot, wall)
+    shear = float(hub_shear_stress(law.torque, core, bore))
+    torsion = "torsion of the core within the tips, without notches; von Mises"
+    return (
+        slot,
+        *((wall,) if bore > 0.0 else ()),
+        check("camshaft torsion against yield", shear, "<=",
+              case.yield_strength / math.sqrt(3.0), "Pa", source=torsion),
+        check("camshaft torsion against the design stress", shear, "<=",
+              law.inputs.design_stress / math.sqrt(3.0), "Pa", source=torsion, otherwise="warn"),
+    )  # fmt: skip
+
+
+KNOBS = (
+    Knob("target.deflection", "deg", math.pi / 180.0, "inputs.deflection"),
+    Knob("envelope.root_radius", "mm", 1e-3, "inputs.root_radius"),
+    Knob("envelope.contact_radius", "mm", 1e-3, "inputs.contact_radius"),
+    Knob("flexures.count", "", 1.0, "inputs.count"),
+    Knob("envelope.thickness", "mm", 1e-3, "inputs.thickness"),
+    Knob("envelope.outer_radius", "mm", 1e-3, "outer_radius"),
+    Knob("flexures.tip_thickness", "mm", 0.5e-3, "inputs.tip_half_thickness"),
+    Knob("target.stiffness", "N*m/rad", 1.0, "inputs.stiffness"),
+    Knob("material.design_stress", "MPa", 1e6, "inputs.design_stress", upwards=False),
+    Knob("flexures.min_gap", "mm", 1e-3, "min_gap", upwards=False),
+    Knob("mounting.dowels.radius", "mm", 1e-3, "dowel_radius", upwards=False),
+    Knob("camshaft.backlash", "mm", 1e-3, "backlash"),
+    Knob("camshaft.bore_radius", "mm", 1e-3, "camshaft_bore_radius", upwards=False),
+)
+"""What a user may change, most telling first. Design stress, gap and bores may only be lowered:
+raising a stress is not a cure."""
+
+
+def case_remedies(case: Case) -> tuple[str, ...]:
+    """Changes of the spec after which every closed-form check passes, each one recomputed."""
+    found = remedies(case, KNOBS, _doubts)
+    for style in ("straight", "auto"):
+        if style != case.style and not failures(replace(case, style=style)):
+            return (f"set flexures.style to {style}", *found)
+    return found
+
+
+def failures(case: Case) -> tuple[str, ...]:
+    """Names of the checks that fail, without remedies: microseconds, for use in searches."""
+    return tuple(claim.name for claim in _checks(case) if claim.status == "fail")
+
+
+def _doubts(case: Case) -> tuple[str, ...]:
+    """Claims that fail, and a density of which a search would hardly make anything."""
+    return tuple(
+        claim.name
+        for claim in _checks(case)
+        if claim.status == "fail" or (claim.status == "warn" and claim.name == DENSITY_CLAIM)
+    )

@@ -1,0 +1,248 @@
+"""The spec of a rotary flexure spring: a ring of tapered flexures round a toothed camshaft.
+
+The symbols of paper 004: outer and root radius, contact radius r, thickness t, number of flexures
+n, stiffness k, design deflection theta. All values are SI.
+"""
+
+from __future__ import annotations
+
+import math
+from importlib.resources import files
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import BeforeValidator, Field
+
+from springcad.spec.common import (
+    AutoLength,
+    CommonSpec,
+    Length,
+    LengthOrZero,
+    MaterialSpec,
+    ProcessEntry,
+    ProcessSpec,
+    TorsionalStiffness,
+    angle,
+    default,
+)
+from springcad.spec.rules import Rule, Section, rule
+from springcad.spec.units import LENGTH, show
+
+TEMPLATE = files(__package__).joinpath("template.yaml").read_text(encoding="utf-8")
+
+
+class Target(Section):
+    """What the spring is to do."""
+
+    stiffness: TorsionalStiffness
+    """Torsional stiffness of the whole spring, in N*m/rad or N*m/deg."""
+    deflection: Annotated[float, angle("0.01 deg", "60 deg")]
+    """Largest deflection in normal use, one way from rest, in deg."""
+
+
+class Envelope(Section):
+    """The space that the spring may take."""
+
+    outer_radius: Length
+    """Outer radius of the rim, in mm."""
+    root_radius: Length
+    """Radius at which the flexures leave the rim, in mm."""
+    contact_radius: Length
+    """Radius at which the flexure tips touch the camshaft at rest, in mm."""
+    thickness: Length
+    """Thickness of the sheet, in mm."""
+
+
+class Flexures(Section):
+    """The flexures between rim and camshaft."""
+
+    count: Annotated[int, Field(ge=3, le=400)]
+    """Number of flexures."""
+    style: Literal["auto", "straight", "serpentine"] = "auto"
+    """Shape; auto takes straight flexures where they meet the target, else serpentine ones."""
+    tip_thickness: Length = default("0.35 mm")
+    """Thickness at the tip and the least one anywhere, in mm."""
+    bend_limit: Annotated[float, Field(ge=0.05, le=0.6)] = 0.3
+    """Largest half thickness times curvature of the centre line, a bare number."""
+    max_root_angle: Annotated[float, angle("0 deg", "28.6 deg")] = default("8.6 deg")
+    """Largest angle between centre line and radius at the root, in deg; more stiffens the root."""
+    root_fillet: AutoLength = default("auto")
+    """Fillet radius at the roots, in mm; auto: the largest that fits and does not stiffen."""
+    min_gap: Length | None = None
+    """Least gap between neighbouring flexures at rest, in mm; the process's if not given."""
+
+
+class Dowels(Section):
+    """Dowel pins half sunk into the outer edge."""
+
+    count: Annotated[int, Field(ge=2, le=100)]
+    """Number of dowels, equally spaced."""
+    radius: Length
+    """Radius of the semicircular cut-outs, in mm."""
+
+
+class Mounting(Section):
+    """How the rim is held: pressed into a bore (no dowels), or by dowels."""
+
+    dowels: Dowels | None
+    """Dowel pins half sunk into the outer edge."""
+
+
+def _mounting(value: object) -> object:
+    if value == "bore":
+        return {"dowels": None}
+    if not isinstance(value, dict):
+        raise ValueError("must be bore, or dowels with their count and radius")
+    return value
+
+
+class Camshaft(Section):
+    """The toothed shaft inside the flexures."""
+
+    backlash: LengthOrZero = default("0 mm")
+    """Tangential play of a tip between two teeth, at the contact radius, in mm."""
+    bore_radius: Length | None = None
+    """Radius of a hole through the centre, in mm; no hole if not given."""
+    friction: Annotated[float, Field(ge=0.0, le=0.6)] = 0.0
+    """Coefficient of dry friction between tips and camshaft, for the hysteresis; a bare number."""
+
+
+class Optimiser(Section):
+    """How the serpentine centre line is searched for."""
+
+    form: Literal["curvature", "control-points"] = "curvature"
+    """Unknowns: curvature along the centre line, or the control points of paper 004."""
+    starts: Annotated[int, Field(ge=1, le=1000)] = 6
+    """Number of starting points."""
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1)] = 1
+    """Seed of the starting points."""
+    control_points: Annotated[int, Field(ge=2, le=4)] = 2
+    """Number of control points; for form control-points only."""
+    weighting: Literal["gap", "sharpness"] = "gap"
+    """What the cost weighs more, the gap or the sharpness of bends; for control-points only."""
+
+
+@rule("envelope.root_radius", "envelope.outer_radius", "process")
+def _rim(root: float, outer: float, process: ProcessSpec) -> str | None:
+    if root >= outer:
+        return f"must be less than outer_radius, {show(outer, LENGTH)}"
+    return _least("a rim (outer less root radius)", outer - root, process.rules.min_web, process)
+
+
+@rule("envelope.contact_radius", "envelope.root_radius")
+def _flexure_length(contact: float, root: float) -> str | None:
+    return None if contact < root else f"must be less than root_radius, {show(root, LENGTH)}"
+
+
+@rule("camshaft.bore_radius", "envelope.contact_radius")
+def _bore(bore: float | None, contact: float) -> str | None:
+    if bore is None or bore < contact:
+        return None
+    return f"must be less than contact_radius, {show(contact, LENGTH)}"
+
+
+@rule("flexures.tip_thickness", "process")
+def _tip(tip: float, process: ProcessSpec) -> str | None:
+    return _least("a web", tip, process.rules.min_web, process)
+
+
+@rule("flexures.min_gap", "process")
+def _gap(gap: float | None, process: ProcessSpec) -> str | None:
+    return None if gap is None else _least("a gap", gap, process.rules.min_gap, process)
+
+
+@rule("flexures.root_fillet", "process")
+def _fillet(fillet: float | str, process: ProcessSpec) -> str | None:
+    if isinstance(fillet, str):
+        return None
+    return _least("an inside radius", fillet, process.rules.min_inside_radius, process)
+
+
+@rule("mounting.dowels.radius", "envelope.root_radius", "envelope.outer_radius", "process")
+def _dowel_depth(radius: float, root: float, outer: float, process: ProcessSpec) -> str | None:
+    if root >= outer:
+        return None
+    web = outer - root - radius
+    return _least("a web between dowel and root radius", web, process.rules.min_web, process)
+
+
+@rule("mounting.dowels.count", "mounting.dowels.radius", "envelope.outer_radius")
+def _dowel_pitch(count: int, radius: float, outer: float) -> str | None:
+    if radius < outer * math.sin(math.pi / count):
+        return None
+    return f"{count} dowels of radius {show(radius, LENGTH)} overlap on the outer edge"
+
+
+@rule("stress", "optimiser")
+def _local_stress(stress: str, optimiser: Optimiser) -> str | None:
+    if stress == "nominal" or optimiser.form == "curvature":
+        return None
+    return "local needs optimiser.form: curvature; the form of paper 004 knows nominal stress only"
+
+
+@rule("optimiser.control_points", "optimiser")
+def _control_points(_: int, optimiser: Optimiser) -> str | None:
+    return _only_control_points("control_points", optimiser)
+
+
+@rule("optimiser.weighting", "optimiser")
+def _weighting(_: str, optimiser: Optimiser) -> str | None:
+    return _only_control_points("weighting", optimiser)
+
+
+def _only_control_points(key: str, optimiser: Optimiser) -> str | None:
+    if optimiser.form == "control-points" or key not in optimiser.model_fields_set:
+        return None
+    return "has a meaning with form: control-points only"
+
+
+def _least(what: str, length: float, least: float, process: ProcessSpec) -> str | None:
+    """Message for a ``length`` below what the process can make; round-off of inputs is allowed."""
+    if length >= least * (1.0 - 1e-9):
+        return None
+    can = f"the {show(least, LENGTH)} that {process.name} can make"
+    return f"{what} of {show(length, LENGTH)} is below {can}"
+
+
+class RotaryFlexureSpec(CommonSpec):
+    """A rotary flexure spring (paper 004)."""
+
+    RULES: ClassVar[tuple[Rule, ...]] = (
+        _rim,
+        _flexure_length,
+        _bore,
+        _tip,
+        _gap,
+        _fillet,
+        _dowel_depth,
+        _dowel_pitch,
+        _local_stress,
+        _control_points,
+        _weighting,
+    )
+
+    kind: Literal["rotary-flexure"]
+    """Kind of element to design."""
+    target: Target
+    """What the spring is to do."""
+    envelope: Envelope
+    """The space that the spring may take."""
+    flexures: Flexures
+    """The flexures between rim and camshaft."""
+    material: MaterialSpec
+    """What the part is made of, and the stress it is designed for."""
+    stress: Literal["nominal", "local"] = "nominal"
+    """What design_stress bounds: the bending stress of the taper law, or that of inner fibres."""
+    process: ProcessEntry
+    """Cutting process: its name, or a section with name and shop rules of your own."""
+    mounting: Annotated[
+        Mounting,
+        BeforeValidator(_mounting, json_schema_input_type=Literal["bore"] | Mounting),
+    ] = default("bore")
+    """How the rim is held: bore (pressed in), or dowels with count and radius."""
+    camshaft: Camshaft = Field(default_factory=Camshaft)
+    """The toothed shaft inside the flexures."""
+    optimiser: Optimiser = Field(default_factory=Optimiser)
+    """How the serpentine centre line is searched for."""
+
+
+SPEC_MODEL = RotaryFlexureSpec

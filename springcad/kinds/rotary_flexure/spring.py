@@ -1,0 +1,57 @@
+"""A finished rotary flexure spring, before anything is said about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from springcad.geometry.outline import Profile
+from springcad.kinds.rotary_flexure.camshaft import Camshaft, CamshaftInputs
+from springcad.kinds.rotary_flexure.feasibility import Case
+from springcad.kinds.rotary_flexure.law import DesignLaw
+from springcad.kinds.rotary_flexure.response import Stroke
+from springcad.kinds.rotary_flexure.search import Found
+from springcad.kinds.rotary_flexure.sizing import Sized
+from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
+from springcad.mechanics.beam import PreparedBeam
+from springcad.result import Check
+
+
+@dataclass(frozen=True)
+class Spring:
+    """Everything that was decided about one spring and what it does; SI.
+
+    Attributes:
+        spec, case, law: what it was designed for.
+        feasibility: the closed-form checks that it passed before the search.
+        sized: its flexures.
+        ring: the flexure ring.
+        camshaft_inputs, camshaft: the camshaft.
+        strokes: counter-clockwise, clockwise.
+        mass: of the ring.
+    """
+
+    spec: RotaryFlexureSpec
+    case: Case
+    law: DesignLaw
+    feasibility: tuple[Check, ...]
+    sized: Sized
+    ring: Profile
+    camshaft_inputs: CamshaftInputs
+    camshaft: Camshaft
+    strokes: tuple[Stroke, Stroke]
+    mass: float
+
+    @property
+    def found(self) -> Found:
+        """The flexures' shape."""
+        return self.sized.found
+
+    @property
+    def fillet(self) -> float:
+        """Root fillet radius."""
+        return self.sized.fillet
+
+    @property
+    def beam(self) -> PreparedBeam:
+        """One flexure on the spring of its root."""
+        return self.sized.beam
