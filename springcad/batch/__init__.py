@@ -1,0 +1,1 @@
+"""Running designs: one spec the whole way, and many specs one after another."""

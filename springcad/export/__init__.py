@@ -1,0 +1,1 @@
+"""Drawings, atomic writing of files, and the manifest."""

@@ -1,0 +1,1 @@
+"""The independent second look: written files are read again and judged as a shop would."""
