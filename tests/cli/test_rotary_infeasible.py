@@ -1,0 +1,180 @@
+"""Specs without a design: one message, exit code 4, nothing written, and remedies that work."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from rotary_cases import SPECS, rotary_model
+
+from springcad.batch.design_one import attempt_design
+from springcad.batch.specs import read_specs
+from springcad.errors import InfeasibleError
+from springcad.kinds.rotary_flexure.feasibility import failures
+from springcad.kinds.rotary_flexure.inputs import case_of
+from springcad.kinds.rotary_flexure.straight import straight_alternatives
+
+Run = Callable[..., "subprocess.CompletedProcess[str]"]
+NUMBER = r"[0-9.]+(?:e[+-]?[0-9]+)?"
+TURN = re.compile(rf"(?:raise|lower) ([a-z_.]+) (?:from {NUMBER} )?to [≥≤]? ?({NUMBER} ?[^ ,]*)")
+STYLE = re.compile(r"set (flexures\.style) to ([a-z]+)")
+
+
+def overrides_of(remedy: str) -> list[str]:
+    """The changes that a remedy names, as after ``--set``."""
+    found = [*TURN.findall(remedy), *STYLE.findall(remedy)]
+    assert found, remedy
+    return [f"{key}={value.strip()}" for key, value in found]
+
+
+def design(name: str, *overrides: str, out: Path) -> tuple[int, Exception | None]:
+    (reading,) = read_specs([SPECS / f"{name}.yaml"], overrides)
+    attempt = attempt_design(reading, out, strict=False, progress=lambda _: None)
+    return attempt.exit_code, attempt.error
+
+
+INFEASIBLE = [
+    ("S4", "flexures.bend_limit=0.1", "searches, of 6, that found a flexure"),
+    ("S3", "flexures.min_gap=1.2 mm", "gap between neighbouring flexures"),
+    ("S4", "flexures.root_fillet=2 mm", "root fillet that fits between neighbours"),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "change", "claim"), INFEASIBLE)
+def test_remedies_found_by_searching_work(
+    name: str, change: str, claim: str, tmp_path: Path
+) -> None:
+    code, error = design(name, change, out=tmp_path)
+    assert code == 4
+    assert isinstance(error, InfeasibleError)
+    assert error.claim.startswith(claim)
+    assert error.remedies
+    assert list(tmp_path.iterdir()) == []
+    for remedy in error.remedies:
+        code, error = design(name, change, *overrides_of(remedy), out=tmp_path)
+        assert code in (0, 5), (remedy, error)
+
+
+CLOSED_FORM = [
+    ("S1", "target.deflection=10 deg", "flexures.style=auto"),
+    ("S2", "target.deflection=11 deg", "flexures.style=serpentine"),
+    ("S1", "target.deflection=14 deg", "flexures.style=straight"),
+    ("S2", "flexures.count=90", "flexures.style=serpentine"),
+    ("S2", "flexures.tip_thickness=0.3 mm", "flexures.style=serpentine"),
+    ("S2", "target.deflection=21 deg", "flexures.style=serpentine"),
+    ("S1", "flexures.count=54", "flexures.style=straight"),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "style"), CLOSED_FORM)
+def test_remedies_of_the_closed_forms_pass_every_closed_form(
+    name: str, change: str, style: str, tmp_path: Path
+) -> None:
+    code, error = design(name, change, style, out=tmp_path)
+    assert code == 4
+    assert isinstance(error, InfeasibleError)
+    assert error.remedies
+    for remedy in error.remedies:
+        case = case_of(rotary_model(name, *[change, style, *overrides_of(remedy)]))
+        assert failures(case) == (), remedy
+
+
+def test_too_soft_to_be_straight_is_told_in_one_message(run_springcad: Run, tmp_path: Path) -> None:
+    """f_s < 1: S2's stiffness with 11 deg; and every remedy, applied, is designed."""
+    run = run_springcad("design", SPECS / "S2.yaml", "--set", "target.deflection=11 deg")
+    assert (run.returncode, run.stdout) == (4, "")
+    first, *rest = run.stderr.splitlines()
+    assert "serpentine factor (below it a straight flexure is already too soft)" in first
+    assert re.search(r": 0\.8\d+, limit 0\.99\d+$", first)
+    assert list(tmp_path.iterdir()) == []
+    remedies = [line for line in rest if "to make it feasible: " in line]
+    assert remedies == rest
+    for line in rest:
+        code, error = design(
+            "S2", "target.deflection=11 deg", *overrides_of(line), out=tmp_path / "out"
+        )
+        # The closed forms are necessary, not sufficient: a search may still find no shape.
+        assert code in (0, 5) or (code == 4 and "searches, of" in str(error)), line
+    assert (tmp_path / "out").exists()
+
+
+def test_a_failed_design_leaves_the_earlier_files_alone(run_springcad: Run, tmp_path: Path) -> None:
+    assert run_springcad("design", SPECS / "S1.yaml", "-o", "out").returncode == 0
+    before = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    run = run_springcad("design", SPECS / "S1.yaml", "-o", "out", "--set", "flexures.count=90")
+    assert run.returncode == 4
+    after = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    assert after == before
+
+
+def test_a_tool_too_wide_for_the_camshaft_s_slots_is_refused_before_any_search() -> None:
+    """A slot is as wide as a tip: an end mill of 2 mm cannot cut one for tips of 1 mm."""
+    milled = rotary_model(
+        "S1", "process=milling", "mounting=bore", "flexures.tip_thickness=1 mm", "flexures.count=8"
+    )
+    assert "camshaft slot" in failures(case_of(milled))
+    loose = rotary_model(
+        "S1", "process=milling", "mounting=bore", "flexures.tip_thickness=1 mm",
+        "flexures.count=8", "camshaft.backlash=1.2 mm",
+    )  # fmt: skip
+    assert "camshaft slot" not in failures(case_of(loose))
+
+
+@pytest.mark.slow
+def test_straight_alternatives_of_s2_can_be_designed_as_promised(
+    run_springcad: Run, tmp_path: Path
+) -> None:
+    """Advice of the report: count and contact radius for straight flexures, with their stress."""
+    case = case_of(rotary_model("S2"))
+    advice = straight_alternatives(case)
+    run = run_springcad("design", SPECS / "S2.yaml", "-o", "out", "--json")
+    said = json.loads(run.stdout)["advice"]
+    for alternative in advice:
+        assert any(str(alternative)[1:] in line for line in said)
+        run = run_springcad(
+            "design", SPECS / "S2.yaml", "-o", "straight", "--json",
+            "--set", "flexures.style=straight",
+            "--set", f"flexures.count={alternative.count}",
+            "--set", f"envelope.contact_radius={alternative.contact_radius * 1e3:.4g} mm",
+        )  # fmt: skip
+        assert run.returncode == 0, run.stderr
+        report = json.loads(run.stdout)
+        design, response = report["design"], report["response"]
+        # The real root changes the thickness a little: the advice is that of a clamped flexure.
+        assert design["law_stress_Pa"] == pytest.approx(alternative.stress, rel=0.02)
+        # Bending at large deflections and the axial force come on top.
+        assert response["peak_nominal_stress_Pa"] == pytest.approx(alternative.stress, rel=0.02)
+        assert response["peak_local_stress_Pa"] == pytest.approx(
+            response["peak_nominal_stress_Pa"], rel=1e-9
+        )
+        assert design["tip_force_N"] == pytest.approx(alternative.force, rel=1e-3)
+        assert response["min_gap_m"] == pytest.approx(alternative.gap, abs=2e-5)
+
+
+def test_warnings_are_0_or_strictly_5_and_a_failed_check_is_5(run_springcad: Run) -> None:
+    """S2 warns of its stress at large deflections; 52 flexures leave S1 too thin a tooth."""
+    s2 = run_springcad("design", SPECS / "S2.yaml")
+    assert (s2.returncode, "WARN" in s2.stdout, "FAIL" in s2.stdout) == (0, True, False)
+    assert run_springcad("design", SPECS / "S2.yaml", "--strict").returncode == 5
+    thin = run_springcad("design", SPECS / "S1.yaml", "--set", "flexures.count=52")
+    assert thin.returncode == 5
+    failing = [line for line in thin.stdout.splitlines() if line.endswith("FAIL")]
+    assert len(failing) == 1
+    assert failing[0].startswith("camshaft tooth, thinnest")
+
+
+def test_numbers_do_not_depend_on_the_threads_of_the_libraries(
+    run_springcad: Run, tmp_path: Path
+) -> None:
+    found = []
+    for threads in ("1", "2"):
+        env = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), threads)
+        run = run_springcad("design", SPECS / "S3.yaml", "-o", threads, env=env)
+        assert run.returncode == 0, run.stderr
+        found.append((tmp_path / threads / "S3" / "report.json").read_bytes())
+    assert found[0] == found[1]
