@@ -73,7 +73,7 @@ def size_flexure(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: 
         progress(f"searching for the shape of the flexures, pass {number}")
         found = find_shape(spec, case, law, progress, correction)
         fillet = _root_fillet(spec, case, found.ribbon, fillet)
-        sized = _with_root(spec, case, found, fillet, correction)
+        sized = _with_root(spec, case, law, found, fillet, correction)
         if abs(sized.stiffness_at_rest / (SOFTER * wanted) - 1.0) <= CLOSE:
             return sized
         correction = round(correction * sized.stiffness_at_rest / (SOFTER * wanted), 6)
@@ -83,13 +83,19 @@ def size_flexure(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: 
 
 
 def _with_root(
-    spec: RotaryFlexureSpec, case: Case, found: Found, fillet: float, correction: float
+    spec: RotaryFlexureSpec,
+    case: Case,
+    law: DesignLaw,
+    found: Found,
+    fillet: float,
+    correction: float,
 ) -> Sized:
     root = _root_model(spec, case, found.ribbon, fillet)
     beam = _beam(spec, case, found.ribbon, root.compliance)
-    push = contact_load(beam, found.ribbon.length, 1e-6 * case.inputs.stiffness, 1.0)
-    arm = case.inputs.contact_radius
-    compliance = 2.0 * float(push.energy[0]) / (1e-6 * case.inputs.stiffness * arm) ** 2
+    # So small that the beam is linear; the arm of a tangential force is the contact radius.
+    probe = 1e-6 * law.force
+    energy = float(contact_load(beam, found.ribbon.length, probe, 1.0).energy[0])
+    compliance = 2.0 * energy / (probe * case.inputs.contact_radius) ** 2
     return Sized(
         found=found,
         fillet=fillet,
