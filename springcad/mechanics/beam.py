@@ -34,13 +34,17 @@ from springcad.mechanics.section import (
 Floats = NDArray[np.float64]
 
 
+_INSIDE = 1.0 - 1e-12
+"""The ends of a panel are taken so much inside it, where a function that jumps is the panel's."""
+
+
 @dataclass(frozen=True)
 class RibbonBeam:
     """A ribbon of sheet, fixed at its root.
 
     Attributes:
         panel_edges: stations s [m], ascending, first 0, last the end of the centre line. Functions
-            below must be smooth between them: put an edge at every kink and spline knot, and
+            below must be smooth between them: put an edge at every jump, kink and spline knot, and
             closer ones where the taper is steep.
         curvature: κ₀(s) [1/m] of the unloaded centre line; takes and returns arrays of any shape.
         half_thickness: λ(s) [m].
@@ -130,7 +134,9 @@ def prepare(beam: RibbonBeam) -> PreparedBeam:
     if edges.ndim != 1 or len(edges) < 2 or edges[0] != 0.0 or np.any(np.diff(edges) <= 0.0):
         raise ValueError("panel edges must ascend from 0")
     half = 0.5 * np.diff(edges)
-    stations = edges[:-1, None] + half[:, None] * (1.0 + lobatto_nodes(beam.nodes_per_panel))
+    stations = edges[:-1, None] + half[:, None] * (
+        1.0 + _INSIDE * lobatto_nodes(beam.nodes_per_panel)
+    )
     curvature = np.asarray(beam.curvature(stations), dtype=np.float64)
     rotation = beam.root_angle + running_integral(curvature, half)
     x = running_integral(np.cos(rotation), half)
@@ -187,36 +193,6 @@ def follower_load(
     station, axial, transverse, moment = loads
     zero = np.zeros_like(station)
     return _solve(prepared, station, axial, transverse, moment, side=zero, slope=zero)
-
-
-def dead_load(
-    prepared: PreparedBeam, station: ArrayLike, force: ArrayLike, ramp_steps: int = 8
-) -> BeamStates:
-    """States under centre-line forces (L, 2) [N] that keep their direction in the flexure frame.
-
-    The angle between force and section is found by a secant, the load being raised in steps.
-
-    Raises:
-        ArithmeticError: no convergence; take more steps.
-    """
-    force = np.atleast_2d(np.asarray(force, dtype=np.float64))
-    size, direction = np.hypot(force[:, 0], force[:, 1]), np.arctan2(force[:, 1], force[:, 0])
-    station = np.broadcast_to(np.asarray(station, dtype=np.float64), size.shape)
-    angle = direction - unloaded_points(prepared, station)[1]
-    for part in size * np.linspace(0.0, 1.0, ramp_steps + 1)[1:, None]:
-        slope, last, step = np.ones_like(size), np.zeros_like(size), np.zeros_like(size)
-        for iteration in range(30):
-            states = follower_load(prepared, station, part * np.cos(angle), part * np.sin(angle))
-            error = angle + states.end_rotation - direction
-            if np.max(np.abs(error)) < 1e-11:
-                break
-            moved = (np.abs(step) > 1e-13) & (iteration > 0)
-            slope = np.where(moved, (error - last) / np.where(moved, step, 1.0), slope)
-            last, step = error, -error / slope
-            angle = angle + step
-        else:
-            raise ArithmeticError("the direction of a dead load did not converge")
-    return states
 
 
 def unloaded_points(prepared: PreparedBeam, stations: Floats) -> tuple[Floats, Floats]:
@@ -284,7 +260,9 @@ def _loaded_part(prepared: PreparedBeam, station: Floats) -> _Loaded:
     curvature = np.broadcast_to(prepared.curvature, s.shape).copy()
     lam = np.broadcast_to(prepared.half_thickness, s.shape).copy()
     cut = int(np.searchsorted(edges, station.min(), side="right")) - 1
-    curvature[:, cut:], lam[:, cut:] = beam.curvature(s[:, cut:]), beam.half_thickness(s[:, cut:])
+    middle = s[:, cut:].mean(axis=-1, keepdims=True)
+    inside = middle + _INSIDE * (s[:, cut:] - middle)
+    curvature[:, cut:], lam[:, cut:] = beam.curvature(inside), beam.half_thickness(inside)
     return _Loaded(half, s, curvature, lam)
 
 

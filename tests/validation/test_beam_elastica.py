@@ -15,10 +15,10 @@ from springcad.mechanics.beam import (
     PreparedBeam,
     RibbonBeam,
     contact_load,
-    dead_load,
     follower_load,
     prepare,
 )
+from springcad.mechanics.dead_load import dead_load
 
 E_MODULUS, POISSON, THICKNESS, LENGTH = 200e9, 0.3, 4.5e-3, 25e-3
 SHEAR_MODULUS = E_MODULUS / (2 * (1 + POISSON))
@@ -71,6 +71,25 @@ def test_small_load_on_the_cantilever_of_uniform_strength() -> None:
     states = follower_load(prepare(beam), end, 0.0, force, force * (LENGTH - end))
     energy = force**2 * LENGTH**3 / (3 * bending_stiffness(lam))
     assert states.energy[0] == pytest.approx(energy, rel=2e-6)
+
+
+def test_small_load_on_a_stepped_cantilever() -> None:
+    """Half thickness and so stiffness jump at a panel edge; Castigliano's integral in two parts."""
+    thick, thin, force, step = 0.9e-3, 0.6e-3, 1e-3, 0.4 * LENGTH
+    beam = RibbonBeam(
+        np.array([0.0, step, LENGTH]),
+        np.zeros_like,
+        lambda s: np.where(s < step, thick, thin),
+        root_angle=0.0,
+        thickness=THICKNESS,
+        elastic_modulus=E_MODULUS,
+        shear_modulus=1e9 * E_MODULUS,
+    )
+    rest = LENGTH - step
+    states = follower_load(prepare(beam), LENGTH, 0.0, force)
+    energy = force**2 / 6 * (LENGTH**3 - rest**3) / bending_stiffness(thick)
+    energy += force**2 / 6 * rest**3 / bending_stiffness(thin)
+    assert states.energy[0] == pytest.approx(energy, rel=1e-9)
 
 
 def elastica(load: float) -> tuple[float, float, float]:

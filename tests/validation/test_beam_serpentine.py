@@ -112,23 +112,65 @@ def test_no_load_leaves_the_reference_shape() -> None:
 
 
 def work_done(states: BeamStates) -> float:
-    """∫ f · dr of the frictionless contact at a fixed station, by the trapezoid rule in steps.
+    """∫ f · dr of a frictionless contact, by the trapezoid rule in steps.
 
-    The surface point of a fixed section is a material point, so this is the work of the contact.
+    The force is normal to the surface along which the contact may move, so only the motion of the
+    surface counts.
     """
     step = np.diff(states.point, axis=0)
     mean = 0.5 * (states.force[1:] + states.force[:-1])
     return float(np.sum(mean * step))
 
 
+@pytest.mark.parametrize("slide", [0.0, -0.2e-3], ids=["fixed", "sliding"])
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("root_compliance", [0.0, 2e-4])
-def test_work_put_in_is_the_energy_stored(side: float, root_compliance: float) -> None:
+def test_work_put_in_is_the_energy_stored(
+    side: float, root_compliance: float, slide: float
+) -> None:
     beam = serpentine(nodes=8, root_compliance=root_compliance)
     works = []
     for steps in (200, 400):
-        states = contact_load(beam, STATION, np.linspace(0.0, 215.0, steps + 1), side)
+        part = np.linspace(0.0, 1.0, steps + 1)
+        states = contact_load(beam, STATION + slide * part, 215.0 * part, side)
         works.append(work_done(states))
     extrapolated = works[1] + (works[1] - works[0]) / 3
     assert extrapolated == pytest.approx(states.energy[-1], rel=1e-6)
     assert states.energy[0] == 0.0
+
+
+def test_friction_takes_its_share_of_the_work() -> None:
+    """A contact dragged along the pad: the force's work is the energy stored and what is rubbed."""
+    part, friction = np.linspace(0.0, 1.0, 401), 0.2
+    beam = serpentine(nodes=8)
+    stations = STATION - 0.2e-3 * part
+    states = contact_load(beam, stations, 215.0 * part, 1.0, friction)
+    # The load goes towards the root; the surface stretches, so rubbing is taken at the surface.
+    rubbed = states.energy[-1] - work_done(states)
+    assert rubbed == pytest.approx(friction * 0.5 * 215.0 * 0.2e-3, rel=3e-4)
+
+
+def test_all_loads_of_both_directions_in_one_call_are_those_of_single_calls() -> None:
+    beam = serpentine(root_compliance=2e-4)
+    force, side = np.tile(np.linspace(20.0, 215.0, 8), 2), np.repeat([1.0, -1.0], 8)
+    station = STATION - 1e-6 * force
+    together = contact_load(beam, station, force, side, 0.1)
+    for i in range(16):
+        alone = contact_load(beam, station[i], force[i], side[i], 0.1)
+        np.testing.assert_allclose(together.point[i], alone.point[0], atol=1e-13)
+        np.testing.assert_allclose(together.energy[i], alone.energy[0], rtol=1e-9)
+        np.testing.assert_allclose(together.nominal_stress[i], alone.nominal_stress[0], rtol=1e-9)
+
+
+def test_a_root_spring_turns_the_whole_ribbon_by_its_moment() -> None:
+    """Seen from the contact nothing else changes: the force is known there."""
+    root_compliance = 2e-3
+    held, sprung = serpentine(), serpentine(root_compliance=root_compliance)
+    first, second = (contact_load(beam, STATION, 215.0, 1.0) for beam in (held, sprung))
+    turn = root_compliance * first.root_moment[0]
+    cos, sin = np.cos(turn), np.sin(turn)
+    np.testing.assert_allclose(
+        second.positions, first.positions @ np.array([[cos, sin], [-sin, cos]]), atol=1e-15
+    )
+    stored = first.energy[0] + 0.5 * root_compliance * first.root_moment[0] ** 2
+    assert second.energy[0] == pytest.approx(stored, rel=1e-12)
