@@ -1,73 +1,50 @@
-"""The rigid flank that makes an elastic part answer with a wanted torque law.
+"""The rigid profile that makes an elastic part answer with a wanted torque law.
 
 Frictionless contact of a rigid profile with a conservative elastic part obeys n dU/dθ = τ. So at
 each angle θ the part must hold the energy W(θ) = ∫ τ dθ while it transmits τ(θ): two equations for
-the contact force F and the place s of the contact on the part,
+the contact force F and the station s of the contact on the part,
 
-    n F p(F, s) = τ(θ),   n U(F, s) = W(θ),
+    n F p(θ, F, s) = τ(θ),   n U(θ, F, s) = W(θ),
 
-with p the moment arm of the contact normal about the centre and n the number of equal parts. The
-contact point carried back into the profile's own frame is the flank; that the flank is tangent to
-the part (the envelope condition) follows from the energy balance.
+with p the arm (torque per unit force) and n the number of equal parts. The contact point in the
+frame of the body that carries the profile is the profile; that it is tangent to the part (the
+envelope condition) follows from the energy balance. Derivations: docs/theory/conjugate-profiles.md.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from springcad.errors import InfeasibleError
-from springcad.mechanics.plane import rotated
+from springcad.mechanics.conjugate_contact import find_contacts
+from springcad.mechanics.conjugate_faults import refuse_search
+from springcad.mechanics.contact import half_width, peak_pressure
+from springcad.mechanics.elastic_part import ElasticPart
+from springcad.mechanics.torque_law import TorqueLaw, require_law, share_of_one
 
 Floats = NDArray[np.float64]
-
-_TOLERANCE = 1e-9
-_MAX_ITERATIONS = 30
-
-
-@dataclass(frozen=True)
-class Contact:
-    """States of an elastic part for L pairs of force and station, about the centre of rotation.
-
-    Attributes:
-        arm: moment of the unit contact force about the centre, > 0 (L,) [m].
-        energy: stored in the part (L,) [J].
-        point: of contact (L, 2) [m].
-        normal: of the part's surface there, outward, so into the profile (L, 2).
-        tangent: of the part's surface towards larger stations (L, 2).
-    """
-
-    arm: Floats
-    energy: Floats
-    point: Floats
-    normal: Floats
-    tangent: Floats
-
-
-class ElasticPart(Protocol):
-    """An elastic part pressed at the surface station s [m] with the normal force F [N]."""
-
-    def __call__(self, force: Floats, station: Floats) -> Contact: ...
 
 
 @dataclass(frozen=True)
 class Flank:
-    """A conjugate flank, one row per angle; points and directions in the profile's own frame.
+    """A conjugate profile, one row per angle; points and directions in the profile's own frame.
 
     Attributes:
-        direction: +1 when the profile turns counter-clockwise, −1 clockwise.
-        angle: of the profile, a magnitude, ascending, > 0 (A,) [rad].
+        direction: in which the turning body turns: +1 counter-clockwise, −1 clockwise.
+        angle: turned, a magnitude, ascending (A,) [rad].
         force: contact force of one part (A,) [N].
-        station: contact station on the part (A,) [m].
-        points, normals, tangents: (A, 2); normals point into the profile, tangents follow the
-            part's surface towards larger stations.
-        radius: of curvature, positive where the profile is convex; a flat part needs that.
-        sliding: speed of the contact over the profile less that over the part, along
-            ``tangents`` (A,) [m/rad].
+        station: of the contact on the part, in the part's own coordinate (A,).
+        points, normals, tangents: (A, 2); normals point into the profile, tangents along the
+            mate's surface, as in ``ContactState``.
+        curvature: of the profile, convex positive (A,) [1/m].
+        mate_curvature: of the mate at the contact, convex positive (A,) [1/m].
+        speed: of the contact along the profile, along ``tangents`` (A,) [m/rad].
+        sliding: ``speed`` less the speed of the contact along the mate (A,) [m/rad].
+        pressure_angle: between the contact normal and the way of the turning body's point of
+            contact (A,) [rad].
     """
 
     direction: int
@@ -77,60 +54,77 @@ class Flank:
     points: Floats
     normals: Floats
     tangents: Floats
-    radius: Floats
+    curvature: Floats
+    mate_curvature: Floats
+    speed: Floats
     sliding: Floats
+    pressure_angle: Floats
+
+    @property
+    def radius(self) -> Floats:
+        """Radius of curvature of the profile, positive where it is convex (A,) [m]."""
+        with np.errstate(divide="ignore"):
+            return 1.0 / self.curvature
+
+    @property
+    def relative_curvature(self) -> Floats:
+        """Curvature of the profile and its mate together, > 0 without undercut (A,) [1/m]."""
+        return self.curvature + self.mate_curvature
 
 
 def conjugate_flank(
     part: ElasticPart,
-    angle: Floats,
-    torque: Floats,
-    energy: Floats,
+    law: TorqueLaw,
     *,
     count: int,
     direction: int,
-    station: float,
     station_limits: tuple[float, float],
+    intervals: int = 8,
 ) -> Flank:
-    """The flank with which ``count`` equal parts give ``torque`` at ``angle``.
+    """The profile with which ``count`` equal parts follow the law.
 
     Args:
-        part: the elastic part, its point and directions in the fixed frame.
-        angle: ascending angles > 0, four or more (A,) [rad].
-        torque: the law τ, > 0 (A,) [N m].
-        energy: its integral W from zero, > 0 (A,) [J].
-        station: where the search begins [m].
-        station_limits: where contact is possible on the part [m].
+        law: at four or more angles.
+        station_limits: where contact is possible on the part. Where more than one contact would
+            do, the one nearest to the first limit is taken.
+        intervals: as many equal ones between the limits are searched.
 
     Raises:
-        InfeasibleError: at some angle no contact within the limits gives torque and energy.
+        InfeasibleError: the law is none, or no contact within the limits gives it at some angle;
+            see ``flank_faults`` for profiles that cannot be made.
     """
-    force, stations = _solve(part, angle, torque, energy, count, station, station_limits)
-    contact = part(force, stations)
-    points = rotated(contact.point, -direction * angle)
-    normals = rotated(contact.normal, -direction * angle)
-    tangents = rotated(contact.tangent, -direction * angle)
-    slope = _slopes(angle, np.column_stack([points, tangents, stations]))
-    speed = np.einsum("ai,ai->a", slope[:, 0:2], tangents)
-    bend = np.einsum("ai,ai->a", slope[:, 2:4], normals)
+    require_law(law)
+    search = find_contacts(part, share_of_one(law, count), station_limits, intervals)
+    if not search.found.all():
+        refuse_search(part, law, count, station_limits, search)
+    force = np.where(law.torque > 0.0, search.contact.force, 0.0)
+    station = search.contact.station
+    state = part(law.angle, force, station)
+    columns = np.column_stack([state.point, state.tangent, state.arc])
+    slope = np.asarray(CubicSpline(law.angle, columns)(law.angle, 1))
+    speed = np.einsum("ai,ai->a", slope[:, 0:2], state.tangent)
+    bend = np.einsum("ai,ai->a", slope[:, 2:4], state.normal)
     with np.errstate(divide="ignore"):
-        radius = speed / bend
+        curvature = bend / speed
     return Flank(
         direction=direction,
-        angle=angle,
+        angle=law.angle,
         force=force,
-        station=stations,
-        points=points,
-        normals=normals,
-        tangents=tangents,
-        radius=radius,
+        station=station,
+        points=state.point,
+        normals=state.normal,
+        tangents=state.tangent,
+        curvature=curvature,
+        mate_curvature=state.mate_curvature,
+        speed=speed,
         sliding=speed - slope[:, 4],
+        pressure_angle=np.arccos(np.clip(state.arm / state.reach, -1.0, 1.0)),
     )
 
 
-def until(flank: Flank, angle: float) -> Flank:
-    """The flank up to ``angle`` (rad, a magnitude)."""
-    within = flank.angle <= angle
+def between(flank: Flank, first: float, last: float) -> Flank:
+    """The flank from one angle to another (rad, magnitudes)."""
+    within = (flank.angle >= first) & (flank.angle <= last)
     columns = {
         field.name: getattr(flank, field.name)[within]
         for field in fields(flank)
@@ -139,55 +133,21 @@ def until(flank: Flank, angle: float) -> Flank:
     return replace(flank, **columns)
 
 
-def _solve(
-    part: ElasticPart,
-    angle: Floats,
-    torque: Floats,
-    energy: Floats,
-    count: int,
-    station: float,
-    limits: tuple[float, float],
-) -> tuple[Floats, Floats]:
-    """Force and station at every angle by Newton's method on all angles at once."""
-
-    def residuals(force: Floats, stations: Floats) -> Floats:
-        copies = len(force) // len(angle)
-        contact = part(force, stations)
-        balance = count * force * contact.arm / np.tile(torque, copies) - 1.0
-        stored = count * contact.energy / np.tile(energy, copies) - 1.0
-        return np.stack([balance, stored]).reshape(2, copies, -1)
-
-    stations = np.full_like(angle, station)
-    force = torque / (count * part(np.ones_like(angle), stations).arm)
-    step = 1e-6
-    longest = 0.25 * (limits[1] - limits[0])
-    for _ in range(_MAX_ITERATIONS):
-        trial_force = np.concatenate([force, force * (1.0 + step), force])
-        trial_station = np.concatenate([stations, stations, stations * (1.0 - step)])
-        value = residuals(trial_force, trial_station)
-        here = value[:, 0]
-        if np.max(np.abs(here)) < _TOLERANCE:
-            return force, stations
-        by_force = (value[:, 1] - here) / (force * step)
-        by_station = (value[:, 2] - here) / (-stations * step)
-        jacobian = np.stack([by_force, by_station], axis=-1).transpose(1, 0, 2)
-        change = np.linalg.solve(jacobian, -here.T[..., None])[..., 0]
-        force = force + np.clip(change[:, 0], -0.5 * force, 0.5 * force)
-        wanted = stations + change[:, 1]
-        stations = np.clip(stations + np.clip(change[:, 1], -longest, longest), *limits)
-    first = int(np.argmax(np.max(np.abs(here), axis=0) > 1e3 * _TOLERANCE))
-    outwards = bool(wanted[first] > stations[first])
-    bound = limits[1] if outwards else limits[0]
-    raise InfeasibleError(
-        f"no contact gives the torque law at {np.degrees(angle[first]):.2f} deg: the part is too "
-        f"{'stiff' if outwards else 'soft'}, contact would have to lie "
-        f"{'beyond' if outwards else 'before'} {1e3 * bound:.3f} mm along it",
-        float(wanted[first]),
-        bound,
-        "m",
-    )
+def until(flank: Flank, angle: float) -> Flank:
+    """The flank up to ``angle`` (rad, a magnitude)."""
+    return between(flank, 0.0, angle)
 
 
-def _slopes(angle: Floats, values: Floats) -> Floats:
-    """Derivatives (A, m) of smooth columns by angle, from a cubic spline."""
-    return np.asarray(CubicSpline(angle, values)(angle, 1))
+def hertz_half_width(flank: Flank, width: float, modulus: float) -> Floats:
+    """Half width (A,) [m] of the contact strip; arguments as for ``hertz_pressure``."""
+    return half_width(flank.force, width, flank.relative_curvature, modulus)
+
+
+def hertz_pressure(flank: Flank, width: float, modulus: float) -> Floats:
+    """Largest contact pressure (A,) [Pa] of a profile without undercut.
+
+    Args:
+        width: thickness of the sheet [m].
+        modulus: of the contact, ``contact.contact_modulus`` [Pa].
+    """
+    return peak_pressure(flank.force, width, flank.relative_curvature, modulus)

@@ -1,8 +1,8 @@
 """Dry friction between an elastic part and its profile: loading, unloading and what is lost.
 
-Coulomb's law with one coefficient and full sliding: the tangential force on the part has the
-direction in which the profile drags it, and turns round when the motion does. The short stick at
-the turning point is left out.
+Coulomb's law with one coefficient and full sliding: the tangential force on the mate of the profile
+has the direction in which the profile drags it, and turns round when the motion does. The short
+stick at the turning point is left out.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def friction_loop(
     Args:
         flank: the frictionless contact; its sliding says which way the profile drags the part.
         ahead, behind: the parts seated on the profile with the tangential force ``coefficient``
-            times the normal one along the part's tangent, and against it.
+            times the normal one on the mate along its tangent (``ContactState``), and against it.
         coefficient: Coulomb's, >= 0.
     """
     pushed, pulled = (

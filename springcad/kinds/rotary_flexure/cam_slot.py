@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Arc, Curve, Line, Piece
 from springcad.geometry.outline_ops import piece_end
 from springcad.geometry.polyline import rotate_vectors
 from springcad.geometry.transform import backwards, rotate
-from springcad.mechanics.conjugate import Flank
+from springcad.mechanics.conjugate import Flank, between
+from springcad.mechanics.flank_faults import require_no_undercut
 
 Floats = NDArray[np.float64]
 
@@ -85,6 +85,7 @@ def tooth_space(
     smallest_radius: float,
     backlash: float,
     bottom_clearance: float,
+    land: float,
 ) -> Slot:
     """Build the slot from the flanks of directions +1 and −1.
 
@@ -94,13 +95,16 @@ def tooth_space(
         smallest_radius: of curvature of a flank (m).
         backlash: play of the unloaded tip, both sides together, at the contact radius (m).
         bottom_clearance: between the nose at rest and the bottom, at least (m).
+        land: by how much a flank goes straight on beyond its last contact, at least, so that the
+            contact strip does not reach the tooth's corner (m).
 
     Raises:
-        InfeasibleError: a flank is sharper than ``smallest_radius`` beyond half of its stroke.
+        InfeasibleError: a flank is hollow or sharper than ``smallest_radius`` beyond half of its
+            stroke.
     """
     turn = 0.5 * backlash / float(np.hypot(*rest.nose_center))
     sides = [_side(flank, rest, smallest_radius, -flank.direction * turn) for flank in flanks]
-    tip_radius = max(float(np.hypot(*side.top)) for side in sides)
+    tip_radius = max(float(np.hypot(*side.top)) for side in sides) + land
     lower, upper = (_reaching(side, tip_radius) for side in sides)
     center, radius = _bottom(lower, upper, rest, bottom_clearance)
     feet = [center + radius * side.normal for side in (lower, upper)]
@@ -139,16 +143,10 @@ def flank_points(slot: Slot, direction: int) -> Floats:
 
 def _side(flank: Flank, rest: Rest, smallest_radius: float, turn: float) -> _Side:
     """The exact flank down to the smallest radius, then an arc until parallel to the tip."""
+    middle = float(flank.angle[len(flank.angle) // 2])
+    require_no_undercut(between(flank, middle, float(flank.angle[-1])), smallest_radius)
     sharp = np.flatnonzero(flank.radius < smallest_radius)
     first = int(sharp[-1]) + 1 if len(sharp) else 0
-    if 2 * first > len(flank.angle):
-        raise InfeasibleError(
-            f"the camshaft's flank would be hollow or sharper than "
-            f"{1e3 * smallest_radius:.2f} mm up to {np.degrees(flank.angle[first - 1]):.2f} deg",
-            float(flank.radius[first - 1]),
-            smallest_radius,
-            "m",
-        )
     curve = Curve(flank.points[first:][::-1], flank.tangents[first:][::-1])
     radius, normal = float(flank.radius[first]), flank.normals[first]
     wall = flank.direction * np.array([-rest.inward[1], rest.inward[0]])

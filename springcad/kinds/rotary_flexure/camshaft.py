@@ -30,8 +30,9 @@ from springcad.kinds.rotary_flexure.flexure_contact import (
 from springcad.kinds.rotary_flexure.room import hub_shear_stress
 from springcad.mechanics.beam import PreparedBeam, contact_load, unloaded_points
 from springcad.mechanics.cam_contact import Seat, seat
-from springcad.mechanics.conjugate import Flank, conjugate_flank
-from springcad.mechanics.contact import contact_modulus, peak_pressure
+from springcad.mechanics.conjugate import Flank, conjugate_flank, hertz_half_width, hertz_pressure
+from springcad.mechanics.contact import contact_modulus
+from springcad.mechanics.torque_law import TorqueLaw
 
 Floats = NDArray[np.float64]
 
@@ -40,6 +41,8 @@ ANGLES = 50
 flank between them deviates by less than 1 nm."""
 SHARES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 """Shares of the deflection tried to say how far a flexure can be bent at all."""
+STRIPS = 2.0
+"""Half widths of the contact strip by which a flank goes on beyond its last contact."""
 _CHORD = 1e-8
 """Distance between the slot and the chords that stand for it where clearance is measured (m)."""
 
@@ -135,13 +138,11 @@ def _flank(beam: PreparedBeam, inputs: CamshaftInputs, direction: int) -> Flank:
     angle = inputs.deflection * np.arange(1, steps + 1) / ANGLES
     return conjugate_flank(
         flexure_part(beam, inputs.root_radius, direction),
-        angle,
-        inputs.torque(angle),
-        inputs.energy(angle),
+        TorqueLaw(angle, inputs.torque(angle), inputs.energy(angle)),
         count=inputs.count,
         direction=direction,
-        station=inputs.nose_station,
         station_limits=_pad(beam, inputs),
+        intervals=1,
     )
 
 
@@ -159,21 +160,23 @@ def design_camshaft(beam: PreparedBeam, inputs: CamshaftInputs) -> Camshaft:
             is left between two tips.
     """
     flanks = (flank(beam, inputs, 1), flank(beam, inputs, -1))
+    modulus = contact_modulus(*(beam.beam.elastic_modulus, inputs.poisson_ratio) * 2)
+    drawn = [_as_drawn(side, inputs.smallest_radius) for side in flanks]
+    strip = max(float(hertz_half_width(s, beam.beam.thickness, modulus)[-1]) for s in drawn)
     slot = tooth_space(
         flanks,
         _rest(beam, inputs),
         smallest_radius=inputs.smallest_radius,
         backlash=inputs.backlash,
         bottom_clearance=inputs.bottom_clearance,
+        land=STRIPS * strip,
     )
     if inputs.bore_radius >= slot.bottom_radius:
         raise InfeasibleError(
             "the camshaft's bore cuts its slots", inputs.bore_radius, slot.bottom_radius, "m"
         )
     profile = camshaft_profile(slot, inputs.count, inputs.bore_radius)
-    modulus = contact_modulus(*(beam.beam.elastic_modulus, inputs.poisson_ratio) * 2)
-    radius = np.stack([np.maximum(side.radius, inputs.smallest_radius) for side in flanks])
-    force = np.stack([side.force for side in flanks])
+    force = max(float(side.force.max()) for side in flanks)
     thickness = _tooth_thickness(slot, inputs.count)
     lever = slot.tip_radius - slot.foot_radius
     torque = float(inputs.torque(flanks[0].angle[-1:])[0])
@@ -183,11 +186,17 @@ def design_camshaft(beam: PreparedBeam, inputs: CamshaftInputs) -> Camshaft:
         flanks=flanks,
         tooth_thickness=thickness,
         tooth_height=slot.tip_radius - slot.bottom_radius,
-        tooth_stress=float(force.max()) * 6.0 * lever / (beam.beam.thickness * thickness**2),
+        tooth_stress=force * 6.0 * lever / (beam.beam.thickness * thickness**2),
         hub_stress=float(hub_shear_stress(torque, slot.bottom_radius, inputs.bore_radius)),
-        pressure=peak_pressure(force, beam.beam.thickness, 1.0 / radius, modulus),
+        pressure=np.stack([hertz_pressure(side, beam.beam.thickness, modulus) for side in drawn]),
         overlap=max(slot.preload, *(overlap(beam, inputs, slot, side) for side in flanks)),
     )
+
+
+def _as_drawn(side: Flank, smallest_radius: float) -> Flank:
+    """The flank with the smallest radius where it would be sharper or hollow."""
+    sharp = side.radius < smallest_radius
+    return replace(side, curvature=np.where(sharp, 1.0 / smallest_radius, side.curvature))
 
 
 def camshaft_profile(slot: Slot, count: int, bore_radius: float) -> Profile:
@@ -233,7 +242,6 @@ def seated(
         flank_points(slot, side.direction),
         side.angle + slot.free_play,
         count=inputs.count,
-        direction=side.direction,
         force=side.force,
         station=side.station,
         station_limits=_pad(beam, inputs),

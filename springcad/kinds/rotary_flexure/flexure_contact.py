@@ -20,7 +20,8 @@ from springcad.mechanics.beam import (
     deformed_points,
     prepare,
 )
-from springcad.mechanics.conjugate import Contact, ElasticPart
+from springcad.mechanics.elastic_part import ContactState, ElasticPart
+from springcad.mechanics.plane import rotated
 
 Floats = NDArray[np.float64]
 
@@ -69,16 +70,28 @@ def flexure_part(
 ) -> ElasticPart:
     """The flexure pressed by the camshaft turning in ``direction`` (+1 counter-clockwise).
 
+    The camshaft carries the profile; its mate is the flat pad, and stations are arc lengths.
     ``friction`` is the tangential over the normal force on the flexure, positive towards the tip.
     """
 
-    def part(force: Floats, station: Floats) -> Contact:
+    def part(angle: Floats, force: Floats, station: Floats) -> ContactState:
         states = contact_load(beam, station, force, direction, friction)
-        point, normal = global_points(states.point, root_radius), -states.normal
+        back = -direction * angle
+        point = rotated(global_points(states.point, root_radius), back)
+        normal = rotated(-states.normal, back)
         tangent = direction * np.stack([normal[:, 1], -normal[:, 0]], axis=-1)
         unit_force = friction * tangent - normal
         moment = point[:, 0] * unit_force[:, 1] - point[:, 1] * unit_force[:, 0]
-        return Contact(direction * moment, states.energy, point, normal, tangent)
+        return ContactState(
+            arm=direction * moment,
+            reach=np.hypot(*point.T),
+            energy=states.energy,
+            point=point,
+            normal=normal,
+            tangent=tangent,
+            arc=station,
+            mate_curvature=np.zeros_like(station),
+        )
 
     return part
 
