@@ -80,19 +80,39 @@ def circle(radius, center=(0.0, 0.0), count=721):
 
 def run_calculix(program, deck, directory, count, timeout=120):
     """Displacements and forces (count, 2) at the last increment of a deck run in CalculiX."""
+    printed = calculix_prints(program, deck, directory, timeout)
+    numbers = np.arange(count)
+    return [printed_vectors(printed, name, "PART", numbers)[-1] for name in VECTORS]
+
+
+VECTORS = ("displacements", "forces")
+
+
+def calculix_prints(program, deck, directory, timeout=120):
+    """What CalculiX prints of the results of a deck; it leaves ``job.frd`` in the directory."""
     (directory / "job.inp").write_text(deck)
     done = subprocess.run(
         [program, "job"], cwd=directory, capture_output=True, text=True, timeout=timeout, check=True
     )
     assert "*ERROR" not in done.stdout, done.stdout[-2000:]
-    printed = (directory / "job.dat").read_text()
-    return [_last_vectors(printed, name, count) for name in ("displacements", "forces")]
+    return (directory / "job.dat").read_text()
 
 
-def _last_vectors(printed, name, count):
-    block = re.split(r"\n\s*\n(?= [a-z])", printed.split(f" {name} (")[-1])[0]
-    rows = re.findall(r"^\s+(\d+)\s+(\S+)\s+(\S+)\s+(\S+)$", block, flags=re.MULTILINE)
-    found = np.full((count, 2), np.nan)
-    for node, x, y, _ in rows:
-        found[int(node) - 1] = float(x), float(y)
-    return found
+def printed_vectors(printed, name, node_set, numbers):
+    """Vectors (increments, nodes, 2) of a *NODE PRINT at the nodes of these numbers, from 0."""
+    heading = rf" {name} \(\w+,\w+,\w+\) for set {node_set} and time .*\n\s*\n((?:\s+\d.*\n)+)"
+    increments = []
+    for block in re.findall(heading, printed):
+        rows = {int(row[0]): row[1:3] for row in (line.split() for line in block.splitlines())}
+        increments.append([[float(number) for number in rows[int(k) + 1]] for k in numbers])
+    return np.array(increments)
+
+
+def nodal_stresses(path, numbers):
+    """Stresses (steps, nodes, 6: xx, yy, zz, xy, yz, zx) in an .frd at these nodes, from 0."""
+    steps = []
+    for block in path.read_text().split(" -4  STRESS")[1:]:
+        lines = block.split(" -3")[0].splitlines()
+        rows = {int(line[3:13]): line[13:] for line in lines if line.startswith(" -1")}
+        steps.append([[float(rows[k + 1][i : i + 12]) for i in range(0, 72, 12)] for k in numbers])
+    return np.array(steps)

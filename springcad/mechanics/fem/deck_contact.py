@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.mechanics.fem.contact import Contact
+from springcad.mechanics.fem.contact import Contact, ContactState
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.rigid_profile import project
+from springcad.mechanics.fem.rigid_profile import RigidProfile, project
 from springcad.mechanics.plane import rotated
 
 Floats = NDArray[np.float64]
@@ -26,14 +27,44 @@ class RigidStrip:
     friction: float
 
 
-def rigid_strip(contact: Contact, start: float, end: float, count: int, depth: float) -> RigidStrip:
-    """A strip of ``count`` elements of ``depth`` [m] from one place on the profile to another.
+MARGIN = 4
+"""The strip is so many edges longer, at both ends, than what is touched."""
 
-    The depth must be less than the convex radius of curvature. Only edges of the part that come
-    near need be in the contact; CalculiX takes its time with many.
+
+def rigid_strip(contact: Contact, states: Sequence[ContactState]) -> RigidStrip:
+    """The strip and the edges of the part that touch each other in one of the states, or nearly.
+
+    CalculiX takes its time with many edges. The elements are as long as the edges; their depth is
+    less than the profile's radius of curvature, so that none is turned inside out. What is touched
+    must not reach across the seam of a closed profile.
+
+    Raises:
+        ValueError: nothing is touched.
     """
-    outside = contact.profile.curve(np.linspace(start, end, 2 * count + 1))
-    inside = outside - depth * project(contact.profile, outside).normal
+    touching = [state.pressure > 0.0 for state in states]
+    edges = np.flatnonzero(np.any(touching, axis=(0, 2)))
+    if not len(edges):
+        raise ValueError("the profile is not touched in any of the states")
+    near = contact.edges[max(edges[0] - MARGIN, 0) : edges[-1] + 1 + MARGIN]
+    places = np.concatenate(
+        [state.near.place[on] for state, on in zip(states, touching, strict=True)]
+    )
+    chords = contact.reference[edges, 2] - contact.reference[edges, 0]
+    length = float(np.mean(np.hypot(*chords.T)))
+    start = max(float(places.min()) - MARGIN * length, 0.0)
+    end = min(float(places.max()) + MARGIN * length, float(contact.profile.places[-1]))
+    count = int(np.ceil((end - start) / length))
+    along = contact.profile.curve(np.linspace(start, end, 4 * count))
+    sharpest = float(np.max(project(contact.profile, along).curvature))
+    depth = 1.0 / max(2.0 * sharpest, 1.0 / (MARGIN * length))
+    strip = _strip_mesh(contact.profile, start, end, count, depth)
+    return RigidStrip(strip, near, contact.penalty, contact.friction)
+
+
+def _strip_mesh(profile: RigidProfile, start: float, end: float, count: int, depth: float) -> Mesh:
+    """``count`` elements from one place to another; their edge set "face" lies on the profile."""
+    outside = profile.curve(np.linspace(start, end, 2 * count + 1))
+    inside = outside - depth * project(profile, outside).normal
     nodes = np.concatenate([inside, 0.5 * (inside + outside), outside])
     low, high = 2 * np.arange(count), 2 * (2 * count + 1) + 2 * np.arange(count)
     middle = 2 * count + 1 + 2 * np.arange(count)
@@ -45,8 +76,7 @@ def rigid_strip(contact: Contact, start: float, end: float, count: int, depth: f
     used = np.unique(elements)
     number = np.full(len(nodes), -1)
     number[used] = np.arange(len(used))
-    strip = Mesh(nodes[used], number[elements], {}, {"face": number[face]})
-    return RigidStrip(strip, contact.edges, contact.penalty, contact.friction)
+    return Mesh(nodes[used], number[elements], {}, {"face": number[face]})
 
 
 def node_lines(mesh: Mesh, first: int) -> list[str]:
@@ -79,6 +109,19 @@ def contact_lines(mesh: Mesh, strip: RigidStrip) -> list[str]:
         *(slip if strip.friction else []),
         "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE",
         "PARTFACE, PROFILEFACE",
+    ]
+
+
+def contact_prints(strip: RigidStrip) -> list[str]:
+    """Requests for the motion and reactions of the profile and for the total force of contact.
+
+    CalculiX prints the moment about the origin with the force; in Abaqus it is CMN and CMS.
+    """
+    return [
+        "*NODE PRINT, NSET=PROFILE",
+        "U, RF",
+        "*CONTACT PRINT, SLAVE=PARTFACE, MASTER=PROFILEFACE",
+        "CFN, CFS" if strip.friction else "CFN",
     ]
 
 

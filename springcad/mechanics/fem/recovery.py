@@ -1,4 +1,4 @@
-"""Stresses at integration points and at nodes.
+"""Stresses at integration points, at nodes and along free edges.
 
 In each element the nine Gauss-point values are fitted by a bilinear polynomial in the reference
 coordinates, least squares with the Gauss weights; for a quadratic stress that is the same as
@@ -13,7 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.mechanics.fem.assembly import Solid, deformation, stress
-from springcad.mechanics.fem.element import CORNERS, MID_SIDES, gauss_points
+from springcad.mechanics.fem.element import (
+    CORNERS,
+    MID_SIDES,
+    edge_shape_functions,
+    gauss_points,
+)
 
 Floats = NDArray[np.float64]
 
@@ -47,6 +52,24 @@ def nodal_stress(solid: Solid, displacement: Floats) -> Floats:
     times = np.bincount(number, minlength=len(mesh.nodes))
     total = [np.bincount(number, part.ravel(), minlength=len(mesh.nodes)) for part in at_nodes]
     return np.asarray(np.stack(total) / times)
+
+
+def edge_stress(solid: Solid, displacement: Floats, edges: str) -> Floats:
+    """Cauchy stress along a free edge (K, 2) [Pa], at two points of each of its K elements' edges.
+
+    A free surface is in uniaxial stress: S = E ε with the Green–Lagrange strain ε of the surface,
+    σ = S √(1 + 2 ε)/(1 − 2 ν ε). The points are those at which the slope of a quadratic element is
+    most accurate.
+    """
+    mesh, sheet = solid.mesh, solid.sheet
+    numbers = mesh.edge_sets[edges]
+    _, slope = edge_shape_functions(np.array([-1.0, 1.0]) / np.sqrt(3.0))
+    reference = slope @ mesh.nodes[numbers]
+    deformed = reference + slope @ displacement.reshape(-1, 2)[numbers]
+    strain = 0.5 * (np.sum(deformed**2, axis=-1) / np.sum(reference**2, axis=-1) - 1.0)
+    stretch = np.sqrt(1.0 + 2.0 * strain)
+    thinning = 1.0 - 2.0 * sheet.poisson_ratio * strain
+    return np.asarray(sheet.elastic_modulus * strain * stretch / thinning)
 
 
 def von_mises(stresses: Floats) -> Floats:
