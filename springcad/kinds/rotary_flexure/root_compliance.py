@@ -31,15 +31,17 @@ from springcad.mechanics.fem.newton import Load, linear_solution, prepare_model
 
 Floats = NDArray[np.float64]
 
-Mounting = Literal["bore", "dowels", "free"]
+Mounting = Literal["bore", "dowels"]
 """How the housing holds the outer edge of the rim:
 
 - ``bore``: every point of it is fixed (press fit).
-- ``dowels``: it slides in the bore without friction; the torque is taken evenly round the edge.
-- ``free``: there is play between rim and bore; the torque is taken evenly round the edge.
+- ``dowels``: the edge as a whole does not turn, the torque being taken evenly round it, and it is
+  free to bend. The flexures bend a rim away from its bore by a few micrometres at full load, less
+  than the play of a sliding fit, so that the bore does not support it between the dowels.
 
-In the last two the edge as a whole does not turn. That the torque is really taken by a few dowels
-turns the flexures between them less than 1e-4 of the deflection; their cut-outs are left out.
+Whole rings of the shipped specs with half-round cut-outs that bear on rigid dowels come within
+0.25 % of the stiffness of ``dowels``, and no flexure differs by more than 0.7 % from their mean
+(linear finite elements). In a bore without any play they would be up to 0.4 % stiffer.
 """
 
 
@@ -121,32 +123,20 @@ def sector_supports(mesh: Mesh, count: int, mounting: Mounting) -> Constraints:
     if mounting == "bore":
         inside = ~np.isin(right, outer)
         parts = [prescribe(outer), tie(right[inside], left[inside], pitch)]
-    elif mounting == "dowels":
-        parts = [_no_turning(mesh, slides=True), _sliding(mesh), tie(right, left, pitch)]
     else:
-        parts = [_no_turning(mesh, slides=False), tie(right, left, pitch)]
+        parts = [_no_turning(mesh), tie(right, left, pitch)]
     return solve_constraints(mesh.unknowns, *parts)
 
 
-def _sliding(mesh: Mesh) -> Equations:
-    """No radial displacement of the outer edge: u_x = -tan(angle) u_y, but for the tied corner."""
-    nodes = np.setdiff1d(mesh.node_sets["outer"], mesh.node_sets["cut_right"])
-    x, y = mesh.nodes[nodes].T
-    rows = np.arange(len(nodes))
-    return Equations(2 * nodes, np.zeros(len(nodes)), rows, 2 * nodes + 1, -y / x)
-
-
-def _no_turning(mesh: Mesh, *, slides: bool) -> Equations:
+def _no_turning(mesh: Mesh) -> Equations:
     """No mean tangential displacement of the outer edge."""
     outer = mesh.node_sets["outer"]
-    share = edge_load(mesh, "outer", np.array([1.0, 0.0]))[::2]
+    share = edge_load(mesh, "outer", np.array([1.0, 0.0]))[::2][outer]
     x, y = (mesh.nodes[outer] / np.hypot(*mesh.nodes[outer].T)[:, None]).T
-    # An edge that slides has the tangential displacement u_y / cos(angle).
-    along_x, along_y = (np.zeros_like(x), 1.0 / x) if slides else (-y, x)
     components = np.concatenate([2 * outer, 2 * outer + 1])
-    factors = np.concatenate([along_x, along_y]) * np.tile(share[outer], 2)
+    factors = np.concatenate([-share * y, share * x])
     slave = len(outer) + len(outer) // 2
-    others = (np.arange(len(components)) != slave) & (factors != 0.0)
+    others = np.arange(len(components)) != slave
     return Equations(
         components[[slave]],
         np.zeros(1),
