@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from springcad.geometry.biarc import DEFAULT_TOLERANCE
 from springcad.geometry.outline import Profile
 
 Status = Literal["pass", "warn", "fail"]
@@ -75,7 +76,8 @@ class Outcome:
 class Part:
     """A part to be cut. The file is ``NAME.dxf`` for an empty ``suffix``, else ``NAME-suffix.dxf``.
 
-    ``role`` says what it is in plain words (``flexure ring``, ``camshaft``).
+    ``role`` says what it is in plain words (``flexure ring``, ``camshaft``); the arcs of its
+    drawing follow curves of the profile within ``tolerance``.
     """
 
     suffix: str
@@ -83,6 +85,7 @@ class Part:
     profile: Profile
     thickness: float
     material: str
+    tolerance: float = DEFAULT_TOLERANCE
 
 
 @dataclass(frozen=True)
@@ -123,6 +126,62 @@ class Plot:
 
 
 @dataclass(frozen=True)
+class Comparison:
+    """One quantity at K places, by the design's model and by another that shares nothing with it.
+
+    Attributes:
+        name, unit: of the quantity.
+        place, place_unit: what tells the places apart, as an angle.
+        places, designed, judged: (K,).
+        tolerance: largest difference that counts as agreement; a share of the designed value if
+            ``relative``, else in ``unit``.
+        source: how the two sides are known.
+    """
+
+    name: str
+    unit: str
+    place: str
+    place_unit: str
+    places: NDArray[np.float64]
+    designed: NDArray[np.float64]
+    judged: NDArray[np.float64]
+    tolerance: float
+    relative: bool
+    source: str
+
+    @property
+    def differences(self) -> NDArray[np.float64]:
+        """Judged less designed (K,), in the measure of the tolerance."""
+        scale = np.abs(self.designed) if self.relative else 1.0
+        return np.asarray((self.judged - self.designed) / scale)
+
+    @property
+    def worst(self) -> int:
+        """Index of the largest difference; of one that is not a number before all others."""
+        size = np.abs(self.differences)
+        return int(np.argmax(np.where(np.isnan(size), np.inf, size)))
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """A second opinion on a finished design.
+
+    Attributes:
+        method: the model, in a few words for a heading.
+        comparisons: what was compared.
+        checks: claims of the judge's own, as that it got through the whole stroke.
+        assumptions: what it takes for granted, in full sentences.
+        figures: size of the model and the like.
+    """
+
+    method: str
+    comparisons: tuple[Comparison, ...]
+    checks: tuple[Check, ...]
+    assumptions: tuple[str, ...]
+    figures: Mapping[str, Value]
+
+
+@dataclass(frozen=True)
 class Result:
     """A finished design: everything that the files and the reports show, before any is written.
 
@@ -137,6 +196,7 @@ class Result:
         dimensions, plots: for the drawing and the report.
         assumptions: what was taken for granted and what was not checked, in full sentences.
         advice: findings that may lead to a better design, with their numbers.
+        judgement: the second opinion; None if nobody asked for one.
         provenance: seed, counts, library versions; no clock and no path.
     """
 
@@ -152,5 +212,5 @@ class Result:
     plots: tuple[Plot, ...] = ()
     assumptions: tuple[str, ...] = ()
     advice: tuple[str, ...] = ()
-    verification: Mapping[str, Value] = field(default_factory=dict)
+    judgement: Judgement | None = None
     provenance: Mapping[str, Value] = field(default_factory=dict)

@@ -7,7 +7,17 @@ from dataclasses import replace
 import numpy as np
 
 from springcad.geometry.outline import Circle, Profile
-from springcad.result import Dimension, Outcome, Part, Plot, Result, Series, check
+from springcad.result import (
+    Comparison,
+    Dimension,
+    Judgement,
+    Outcome,
+    Part,
+    Plot,
+    Result,
+    Series,
+    check,
+)
 
 DEG = np.pi / 180
 DRAWING = (
@@ -220,12 +230,38 @@ def example_result(**changes) -> Result:
             "A straight flexure would do with contact_radius 7.4 mm and 18 flexures: nominal "
             "stress 906 MPa, smallest gap 1.25 mm, mass 83 g.",
         ),
-        verification={
-            "beam_stiffness_Nm_per_rad": 148.5,
-            "finite_element_stiffness_Nm_per_rad": None,
-            "polygon_states": 19,
-            "outline_valid": True,
-        },
+        judgement=Judgement(
+            method="finite elements",
+            comparisons=(
+                Comparison(
+                    name="torque over the stroke",
+                    unit="N*m",
+                    place="angle",
+                    place_unit="rad",
+                    places=np.array([-14.5 * DEG, 14.5 * DEG]),
+                    designed=np.array([37.58, 37.58]),
+                    judged=np.array([37.62, 37.41]),
+                    tolerance=0.01,
+                    relative=True,
+                    source="beam; finite elements",
+                ),
+                Comparison(
+                    name="gap between deformed flexures",
+                    unit="m",
+                    place="angle",
+                    place_unit="rad",
+                    places=np.array([14.5 * DEG]),
+                    designed=np.array([0.2871e-3]),
+                    judged=np.array([0.2862e-3]),
+                    tolerance=5e-6,
+                    relative=False,
+                    source="beam; finite elements",
+                ),
+            ),
+            checks=(),
+            assumptions=("The camshaft is rigid.",),
+            figures={"elements": 1446},
+        ),
         provenance={
             "spec_sha256": "5f0d1c" * 10 + "9a3b",
             "seed": 20240601,

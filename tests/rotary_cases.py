@@ -6,14 +6,19 @@ import math
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
+from springcad.export.dxf import part_to_dxf
 from springcad.kinds.rotary_flexure.checks import spring_checks
 from springcad.kinds.rotary_flexure.design import Spring, build_spring
 from springcad.kinds.rotary_flexure.inputs import rotary_spec
 from springcad.kinds.rotary_flexure.law import DesignLaw, LawInputs, design_law
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
+from springcad.kinds.rotary_flexure.summary import summarise
 from springcad.spec.source import read_spec
+from springcad.verify.drawing import read_drawing
+from springcad.written import WrittenDesign
 
 TABLE_I = {
     "S1": (31e-3, 6.0e-3, 24, 12.56),
@@ -70,6 +75,20 @@ def rotary_model(name: str, *overrides: str) -> RotaryFlexureSpec:
 def spring_of(name: str, *overrides: str) -> Spring:
     """The spring of a shipped spec, designed once for all tests of a run."""
     return build_spring(rotary_model(name, *overrides), lambda _: None)
+
+
+@cache
+def written_of(name: str, *overrides: str) -> WrittenDesign:
+    """The same spring as its report and drawings hold it, these read back from files."""
+    spec = read_spec(SPECS / f"{name}.yaml", overrides)
+    result = summarise(spec, spring_of(name, *overrides))
+    contours = {}
+    with TemporaryDirectory() as folder:
+        for part in result.parts:
+            path = Path(folder, f"{part.role}.dxf")
+            path.write_text(part_to_dxf(part), encoding="utf-8")
+            contours[part.suffix] = read_drawing(path).polylines
+    return WrittenDesign(result.kind, result.name, result.design, result.response, contours)
 
 
 def statuses(name: str, *overrides: str) -> dict[str, str]:

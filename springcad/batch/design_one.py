@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,8 +13,9 @@ from springcad.errors import OutputError, SpringcadError
 from springcad.export.files import check_writable, write_files
 
 if TYPE_CHECKING:
-    from springcad.result import Check, Progress, Result
+    from springcad.result import Check, Part, Progress, Result
     from springcad.spec.source import Spec
+    from springcad.verify.drawing import Drawing
 
 
 @dataclass(frozen=True)
@@ -34,13 +35,28 @@ class Attempt:
     error: Exception | None = None
 
 
-def attempt_design(reading: Reading, out: Path, *, strict: bool, progress: Progress) -> Attempt:
+@dataclass(frozen=True)
+class Wishes:
+    """How designs are to be made and judged.
+
+    Attributes:
+        out: folder in which each design gets its own.
+        strict: warnings count as failures.
+        judged: a second opinion is formed.
+    """
+
+    out: Path
+    strict: bool
+    judged: bool
+
+
+def attempt_design(reading: Reading, wishes: Wishes, progress: Progress) -> Attempt:
     """Design and write one spec; whatever goes wrong is part of the answer, never raised."""
     spec = reading.outcome
     if isinstance(spec, Exception):
         return _failed(reading.path, "", spec)
     try:
-        return design_one(reading.path, spec, out, strict=strict, progress=progress)
+        return design_one(reading.path, spec, wishes, progress)
     except Exception as error:
         return _failed(reading.path, spec.name, error)
 
@@ -50,8 +66,8 @@ def _failed(path: Path, name: str, error: Exception) -> Attempt:
     return Attempt(path, exit_code, name, error=error)
 
 
-def design_one(path: Path, spec: Spec, out: Path, *, strict: bool, progress: Progress) -> Attempt:
-    """Design ``spec``, re-read every drawing, and write all files into ``out``/NAME.
+def design_one(path: Path, spec: Spec, wishes: Wishes, progress: Progress) -> Attempt:
+    """Design ``spec``, re-read every drawing, judge the design, and write all files into OUT/NAME.
 
     Nothing is written before everything is known. The exit code is 5 when a check failed (with
     ``strict`` also when one warned), else 0.
@@ -60,20 +76,22 @@ def design_one(path: Path, spec: Spec, out: Path, *, strict: bool, progress: Pro
         InfeasibleError: no part meets the spec; nothing is written.
         OutputError: the files cannot be written; earlier ones are kept.
     """
-    check_writable(out, [f"{spec.name}/manifest.json"])
+    check_writable(wishes.out, [f"{spec.name}/manifest.json"])
 
     # Only now what is slow to import: a spec or an output folder that will not do answers at once.
     from springcad.kinds import load_kind
 
     result = load_kind(spec.kind).design_spec(spec, progress)
     progress("writing and reading back the drawings")
-    drawings = _drawings(result)
-    result = replace(result, checks=result.checks + _preflight(drawings, spec))
-    contents = _all_files(result, drawings, spec.sha256)
-    written = write_files(out, {f"{spec.name}/{name}": text for name, text in contents.items()})
+    sheets = _sheets(result)
+    result = replace(result, checks=result.checks + _preflight(sheets, spec))
+    result = _judged(result, sheets, progress) if wishes.judged else _not_judged(result)
+    contents = _all_files(result, sheets, spec.sha256)
+    files = {f"{spec.name}/{name}": text for name, text in contents.items()}
+    written = write_files(wishes.out, files)
     return Attempt(
         path,
-        exit_code_of(result.checks, strict=strict),
+        exit_code_of(result.checks, strict=wishes.strict),
         spec.name,
         result=result,
         files=written,
@@ -87,36 +105,73 @@ def exit_code_of(checks: Sequence[Check], *, strict: bool) -> int:
     return 5 if any(check.status in bad for check in checks) else 0
 
 
-def _drawings(result: Result) -> dict[str, tuple[str, str]]:
-    """File name → (text, role) of the drawing of each part."""
-    from springcad.export.dxf import part_to_dxf
+@dataclass(frozen=True)
+class _Sheet:
+    """The drawing of a part: as the text of its file, and as it is read from there."""
 
-    return {
-        f"{result.name}{'-' if part.suffix else ''}{part.suffix}.dxf": (
-            part_to_dxf(part),
-            part.role,
-        )
-        for part in result.parts
-    }
+    part: Part
+    file: str
+    text: str
+    drawing: Drawing
 
 
-def _preflight(drawings: Mapping[str, tuple[str, str]], spec: Spec) -> tuple[Check, ...]:
-    """Checks of the drawings as a shop would read them, from a temporary copy."""
+def _sheets(result: Result) -> tuple[_Sheet, ...]:
+    """Every part drawn, and read back from a temporary copy."""
+    from springcad.export.dxf import part_file, part_to_dxf
+    from springcad.verify.drawing import read_drawing
+
+    sheets = []
+    try:
+        with TemporaryDirectory(prefix="springcad-") as folder:
+            for part in result.parts:
+                text = part_to_dxf(part)
+                copy = Path(folder, part_file(result.name, part.suffix))
+                copy.write_text(text, encoding="utf-8", newline="")
+                sheets.append(_Sheet(part, copy.name, text, read_drawing(copy)))
+    except OSError as error:
+        raise OutputError(f"no temporary copy of the drawings: {error.strerror}") from error
+    return tuple(sheets)
+
+
+def _preflight(sheets: Sequence[_Sheet], spec: Spec) -> tuple[Check, ...]:
+    """Checks of the drawings as a shop would read them."""
     from springcad.spec.common import ProcessSpec
-    from springcad.verify.preflight import preflight
+    from springcad.verify.preflight import drawing_checks
 
     entry = getattr(spec.model, "process", None)
     rules = entry.rules if isinstance(entry, ProcessSpec) else None
-    checks: list[Check] = []
-    try:
-        with TemporaryDirectory(prefix="springcad-") as folder:
-            for name, (text, role) in drawings.items():
-                copy = Path(folder, name)
-                copy.write_text(text, encoding="utf-8", newline="")
-                checks += _as_one_part(role, preflight(copy, rules))
-    except OSError as error:
-        raise OutputError(f"no temporary copy of the drawings: {error.strerror}") from error
-    return tuple(checks)
+    return tuple(
+        check
+        for sheet in sheets
+        for check in _as_one_part(sheet.part.role, drawing_checks(sheet.drawing, rules))
+    )
+
+
+def _judged(result: Result, sheets: Sequence[_Sheet], progress: Progress) -> Result:
+    """The result with the second opinion on what is about to be written."""
+    from springcad.verify.second_opinion import judgement_checks, second_opinion
+    from springcad.written import WrittenDesign
+
+    design = WrittenDesign(
+        result.kind,
+        result.name,
+        result.design,
+        result.response,
+        {sheet.part.suffix: sheet.drawing.polylines for sheet in sheets},
+    )
+    judgement = second_opinion(design, progress)
+    return replace(
+        result,
+        judgement=judgement,
+        checks=result.checks + judgement_checks(judgement),
+        assumptions=result.assumptions + judgement.assumptions,
+    )
+
+
+def _not_judged(result: Result) -> Result:
+    from springcad.verify.second_opinion import NOT_JUDGED
+
+    return replace(result, assumptions=(*result.assumptions, NOT_JUDGED))
 
 
 def _as_one_part(role: str, checks: Sequence[Check]) -> list[Check]:
@@ -135,23 +190,21 @@ def _as_one_part(role: str, checks: Sequence[Check]) -> list[Check]:
     return [sound, *(replace(check, name=f"{role} drawing: {check.name}") for check in rest)]
 
 
-def _all_files(
-    result: Result, drawings: Mapping[str, tuple[str, str]], spec_sha256: str
-) -> dict[str, str]:
+def _all_files(result: Result, sheets: Sequence[_Sheet], spec_sha256: str) -> dict[str, str]:
     """File name → text of everything in the folder of the design; the manifest comes last."""
     from springcad.export.manifest import manifest_json
     from springcad.export.svg import result_to_svg
     from springcad.report.html import result_to_html
     from springcad.report.json_report import result_to_json
 
-    held = {name: f"{role}, for cutting" for name, (_, role) in drawings.items()} | {
+    held = {sheet.file: f"{sheet.part.role}, for cutting" for sheet in sheets} | {
         f"{result.name}.svg": "all parts in true size, with dimensions",
         "report.html": "the report for people",
         "report.json": "the whole result for programs",
         "manifest.json": "SHA-256 of each file, and versions",
     }
     svg = result_to_svg(result)
-    contents = {name: text for name, (text, _) in drawings.items()} | {
+    contents = {sheet.file: sheet.text for sheet in sheets} | {
         f"{result.name}.svg": svg,
         "report.html": result_to_html(result, svg[svg.index("<svg") :], held),
         "report.json": result_to_json(result, held),

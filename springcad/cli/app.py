@@ -15,6 +15,7 @@ from springcad.cli.kinds import kinds
 from springcad.cli.materials import materials
 from springcad.cli.preflight import preflight
 from springcad.cli.schema import schema
+from springcad.cli.verify import verify
 
 _EXIT_CODES = """
 Exit codes: 0 done, every check passes; 1 internal error; 2 wrong usage; 3 spec invalid;
@@ -30,7 +31,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-for _command in (design, check, preflight, init, schema, materials, kinds, doctor):
+for _command in (design, check, verify, preflight, init, schema, materials, kinds, doctor):
     app.command()(_command)
 
 

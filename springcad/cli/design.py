@@ -28,19 +28,24 @@ def design(
     ] = None,
     as_json: Json = False,
     strict: Annotated[bool, typer.Option("--strict", help="Warnings count as failures.")] = False,
+    no_verify: Annotated[
+        bool, typer.Option("--no-verify", help="Leave out the second opinion; faster.")
+    ] = False,
     form: ProblemFormat = Format.text,
 ) -> None:
     """Design what the specs ask for.
 
-    Writes drawings, report and manifest into OUT/NAME, and reads every drawing back.
+    Writes drawings, report and manifest into OUT/NAME, reads every drawing back, and has the
+    design judged by a model that took no part in it.
     """
-    from springcad.batch.design_one import attempt_design
+    from springcad.batch.design_one import Wishes, attempt_design
     from springcad.batch.specs import read_specs
 
+    wishes = Wishes(out, strict=strict, judged=not no_verify)
     attempts: list[Attempt] = []
     for reading in read_specs(specs, overrides or ()):
         with progress_shown() as progress:
-            attempt = attempt_design(reading, out, strict=strict, progress=progress)
+            attempt = attempt_design(reading, wishes, progress)
         if attempt.error is not None:
             say(failure_text(attempt.error, attempt.path, form))
         elif not as_json:

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from springcad.errors import SpringcadError
-from springcad.geometry.biarc import DEFAULT_TOLERANCE, fit_contour
+from springcad.geometry.biarc import fit_contour
 from springcad.geometry.outline import Circle, Contour, Floats
 from springcad.geometry.outline_ops import contour_bounds
 from springcad.geometry.polyline import BulgePolyline, signed_area, turned_round
@@ -33,8 +33,13 @@ BULGE_DIGITS = 9
 _SHORTEST = 1.5e-6  # mm: two vertices nearer than this differ by rounding only
 
 
-def part_to_dxf(part: Part, tolerance: float = DEFAULT_TOLERANCE) -> str:
-    """The text of the drawing; curves become G1 biarcs within ``tolerance`` (m).
+def part_file(name: str, suffix: str) -> str:
+    """Name of the drawing of a part of the design ``name``."""
+    return f"{name}-{suffix}.dxf" if suffix else f"{name}.dxf"
+
+
+def part_to_dxf(part: Part) -> str:
+    """The text of the drawing; curves become G1 biarcs within the part's tolerance.
 
     Raises ValueError for a coordinate that is not finite or an outline that is open.
     """
@@ -45,9 +50,9 @@ def part_to_dxf(part: Part, tolerance: float = DEFAULT_TOLERANCE) -> str:
         for name, color in _LAYER_COLORS.items():
             document.layers.add(name, color=color)
         modelspace = document.modelspace()
-        _add_contour(modelspace, part.profile.outer, OUTER_LAYER, 1.0, tolerance)
+        _add_contour(modelspace, part.profile.outer, OUTER_LAYER, 1.0, part.tolerance)
         for contour in part.profile.inner:
-            _add_contour(modelspace, contour, INNER_LAYER, -1.0, tolerance)
+            _add_contour(modelspace, contour, INNER_LAYER, -1.0, part.tolerance)
         x0, y0, x1, y1 = _rounded(np.array(contour_bounds(part.profile.outer)) * 1e3)
         modelspace.reset_extents((x0, y0, 0.0), (x1, y1, 0.0))
         # ezdxf would register these in the order of a set, which changes with the hash seed

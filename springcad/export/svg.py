@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from springcad.export.dxf import part_file
 from springcad.export.svg_dimensions import Callouts, arrange, draw
 from springcad.export.svg_text import (
     Attributes,
@@ -81,7 +82,7 @@ def _cell(part: Part, result: Result) -> _Cell:
 
 
 def _captions(part: Part, name: str) -> tuple[str, str]:
-    file = f"{name}-{part.suffix}.dxf" if part.suffix else f"{name}.dxf"
+    file = part_file(name, part.suffix)
     return part.role, f"{number(part.thickness * 1e3)} mm {part.material}, {file}"
 
 
@@ -96,7 +97,8 @@ def _part_group(cell: _Cell, corner: Point, tallest: float, name: str) -> str:
     role, details = _captions(cell.part, name)
     middle, below = left + 0.5 * (x1 - x0), corner[1] + tallest + 5.0
     profile = cell.part.profile
-    data = " ".join(_contour_data(c, origin) for c in (profile.outer, *profile.inner))
+    contours, tolerance = (profile.outer, *profile.inner), cell.part.tolerance
+    data = " ".join(_contour_data(contour, origin, tolerance) for contour in contours)
     shape: Attributes = {
         "d": data,
         "fill": _MATERIAL,
@@ -115,9 +117,9 @@ def _part_group(cell: _Cell, corner: Point, tallest: float, name: str) -> str:
     return element("g", {}, "\n" + "\n".join(content) + "\n")
 
 
-def _contour_data(contour: Contour, origin: Point) -> str:
+def _contour_data(contour: Contour, origin: Point, tolerance: float) -> str:
     """Path data with true arcs; ``origin`` is where the part's frame lies on the sheet (mm)."""
-    polyline = fit_contour(contour)
+    polyline = fit_contour(contour, tolerance)
     x = origin[0] + 1e3 * polyline.points[:, 0]
     y = origin[1] - 1e3 * polyline.points[:, 1]
     return f"M{number(x[0])} {number(y[0])}{_segments_data(polyline, x, y)}Z"

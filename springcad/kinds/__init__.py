@@ -5,13 +5,15 @@ Nothing outside this package asks which kind it has: it takes a ``Kind`` from th
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from springcad.result import Check, Progress, Result
+    from springcad.result import Check, Judgement, Progress, Result
     from springcad.spec.common import CommonSpec
     from springcad.spec.source import Spec
+    from springcad.written import WrittenDesign
 
 KINDS = {
     "rotary-flexure": (
@@ -34,6 +36,14 @@ class Kind(Protocol):
 
     def design_spec(self, spec: Spec, progress: Progress) -> Result:
         """The whole design; raises ``InfeasibleError`` when no part can meet the spec."""
+        ...
+
+    def judge_design(self, design: WrittenDesign, progress: Progress) -> Judgement:
+        """The design judged by another model; ``IncompleteDesignError`` if a number is missing."""
+        ...
+
+    def judge_decks(self, design: WrittenDesign) -> Mapping[str, str]:
+        """Name (to follow that of the design) → input deck of each analysis of the judge."""
         ...
 
 

@@ -10,7 +10,7 @@ import math
 from typing import NamedTuple
 from unicodedata import category
 
-from springcad.result import Check, Outcome
+from springcad.result import Check, Comparison, Outcome
 
 DIGITS = 4
 _MOST_DIGITS = 15
@@ -105,6 +105,13 @@ def format_deviation(outcome: Outcome) -> str:
     if not math.isfinite(per_cent):
         return ""
     return f"{per_cent:+.2f} %" if abs(per_cent) >= 0.005 else "0.00 %"
+
+
+def format_difference(value: float, comparison: Comparison) -> str:
+    """A difference (or its tolerance) in the measure of a comparison, in per cent if relative."""
+    if not comparison.relative:
+        return format_value(value, comparison.unit, 2)
+    return f"{100 * value:.2f} %" if math.isfinite(value) else format_number(value)
 
 
 def typeset(quantity: str) -> str:

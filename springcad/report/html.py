@@ -13,6 +13,7 @@ from springcad import __version__
 from springcad.report.display import (
     format_check,
     format_deviation,
+    format_difference,
     format_value,
     printable,
     typeset,
@@ -20,7 +21,7 @@ from springcad.report.display import (
 from springcad.report.entries import entries, spec_lines
 from springcad.report.plots import LegendEntry, legend, plot_svg
 from springcad.report.verdict import verdict
-from springcad.result import Check, Outcome, Plot, Result
+from springcad.result import Check, Judgement, Outcome, Plot, Result
 
 _KEY_NUMBERS = 6
 _XML_DECLARATION = re.compile(r"\A\s*<\?xml[^>]*\?>")
@@ -33,6 +34,18 @@ class _Row(NamedTuple):
     value: str
     bound: str
     deviation: str = ""
+
+
+class _ComparisonRow(NamedTuple):
+    """A quantity of the second opinion at one place."""
+
+    name: str
+    source: str
+    place: str
+    designed: str
+    judged: str
+    difference: str
+    tolerance: str
 
 
 class _Figure(NamedTuple):
@@ -68,7 +81,8 @@ def result_to_html(result: Result, svg: str, files: Mapping[str, str]) -> str:
         drawing=_trusted_drawing(svg),
         figures=[_figure(plot, index) for index, plot in enumerate(result.plots, 1)],
         design=entries(result.design),
-        verification=entries(result.verification),
+        judgement=result.judgement,
+        comparisons=_comparison_rows(result.judgement),
         provenance=entries(result.provenance),
         spec="\n".join(spec_lines(result.spec)),
         files=files,
@@ -96,6 +110,23 @@ def _outcome_row(outcome: Outcome) -> _Row:
     target = "" if outcome.target is None else format_value(outcome.target, outcome.unit)
     value = format_value(outcome.value, outcome.unit)
     return _Row(outcome, typeset(value), typeset(target), typeset(format_deviation(outcome)))
+
+
+def _comparison_rows(judgement: Judgement | None) -> list[_ComparisonRow]:
+    """Every place of every comparison."""
+    return [
+        _ComparisonRow(
+            entry.name,
+            entry.source,
+            typeset(format_value(float(entry.places[i]), entry.place_unit)),
+            typeset(format_value(float(entry.designed[i]), entry.unit)),
+            typeset(format_value(float(entry.judged[i]), entry.unit)),
+            typeset(format_difference(float(entry.differences[i]), entry)),
+            typeset(format_difference(entry.tolerance, entry)),
+        )
+        for entry in (judgement.comparisons if judgement else ())
+        for i in range(len(entry.places))
+    ]
 
 
 def _figure(plot: Plot, index: int) -> _Figure:

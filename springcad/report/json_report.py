@@ -12,7 +12,7 @@ import numpy as np
 
 from springcad import __version__
 from springcad.report.verdict import verdict
-from springcad.result import Result
+from springcad.result import Comparison, Judgement, Result
 
 _DIGITS = 12
 
@@ -35,13 +35,38 @@ def result_to_dict(result: Result, files: Mapping[str, str]) -> dict[str, Any]:
         "response": result.response,
         "checks": [asdict(check) for check in result.checks],
         "outcomes": [asdict(outcome) for outcome in result.outcomes],
-        "verification": result.verification,
+        "verification": judgement_to_dict(result.judgement),
         "assumptions": result.assumptions,
         "advice": result.advice,
         "files": files,
         "provenance": result.provenance,
     }
     return {key: _plain(value) for key, value in document.items()}
+
+
+def judgement_to_dict(judgement: Judgement | None) -> dict[str, Any]:
+    """The second opinion in the same form; without one only that it was not formed."""
+    if judgement is None:
+        return {"method": None}
+    return {
+        "method": judgement.method,
+        **_plain(judgement.figures),
+        "comparisons": [_plain(_comparison(entry)) for entry in judgement.comparisons],
+    }
+
+
+def _comparison(entry: Comparison) -> dict[str, Any]:
+    return {
+        "name": entry.name,
+        "unit": entry.unit,
+        f"{entry.place}_{entry.place_unit}": entry.places,
+        "designed": entry.designed,
+        "judged": entry.judged,
+        "largest_difference": abs(entry.differences[entry.worst]),
+        "tolerance": entry.tolerance,
+        "relative": entry.relative,
+        "source": entry.source,
+    }
 
 
 def result_to_json(result: Result, files: Mapping[str, str]) -> str:

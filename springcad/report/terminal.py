@@ -17,11 +17,12 @@ from rich.text import Text
 from springcad.report.display import (
     format_check,
     format_deviation,
+    format_difference,
     format_value,
     printable,
 )
 from springcad.report.verdict import verdict
-from springcad.result import Check, Outcome, Part, Result, Status
+from springcad.result import Check, Judgement, Outcome, Part, Result, Status
 
 _STYLES: dict[Status, str] = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WORDS: dict[Status, str] = {"pass": "pass", "warn": "WARN", "fail": "FAIL"}
@@ -35,9 +36,27 @@ def print_result(result: Result, files: Sequence[Path], console: Console) -> Non
         _print(console, _part_line(part))
     if result.outcomes:
         _print_outcomes(result.outcomes, console)
+    if result.judgement:
+        _print_comparisons(result.judgement, console)
     print_checks(result.checks, "Checks", console)
     _print_list("Assumed and not checked", result.assumptions, console)
     _print_list("Advice", result.advice, console)
+    _print_files(files, console)
+
+
+def print_judgement(
+    name: str,
+    judgement: Judgement,
+    checks: Sequence[Check],
+    files: Sequence[Path],
+    console: Console,
+) -> None:
+    """Print a second opinion on the design ``name``; ``files`` are the paths that were written."""
+    judged = verdict(checks)
+    _print(console, f"{name}: {judged.text}", _STYLES[judged.status])
+    _print_comparisons(judgement, console)
+    print_checks(checks, "Checks", console)
+    _print_list("Assumed", judgement.assumptions, console)
     _print_files(files, console)
 
 
@@ -76,6 +95,24 @@ def _print_outcomes(outcomes: Sequence[Outcome], console: Console) -> None:
             _text(console, format_value(outcome.value, outcome.unit)),
             _text(console, target),
             format_deviation(outcome),
+        )
+    console.print(table)
+
+
+def _print_comparisons(judgement: Judgement, console: Console) -> None:
+    """Each comparison at the place where it is worst; what is allowed stands with the checks."""
+    table = _table(console, f"Second opinion: {judgement.method}")
+    table.add_column("quantity", overflow="fold")
+    for heading in ("design", "judge", "difference"):
+        table.add_column(heading, no_wrap=True)
+    for entry in judgement.comparisons:
+        worst = entry.worst
+        place = format_value(float(entry.places[worst]), entry.place_unit)
+        table.add_row(
+            _text(console, f"{entry.name} (worst at {place})"),
+            _text(console, format_value(float(entry.designed[worst]), entry.unit)),
+            _text(console, format_value(float(entry.judged[worst]), entry.unit)),
+            _text(console, format_difference(float(entry.differences[worst]), entry)),
         )
     console.print(table)
 

@@ -70,6 +70,11 @@ class Drawing:
     strays: dict[str, int]
     structure_errors: int
 
+    @property
+    def polylines(self) -> tuple[BulgePolyline, ...]:
+        """The contours as lines and arcs."""
+        return tuple(contour.polyline for contour in self.contours)
+
 
 @dataclass(frozen=True)
 class _Path:

@@ -37,11 +37,12 @@ class _Nesting:
 
 
 def preflight(path: Path, process: Process | None = None) -> tuple[Check, ...]:
-    """Checks of any DXF; widths are held against ``process`` if one is given.
+    """Checks of any DXF; raises ``DrawingError`` for a file that is no readable drawing."""
+    return drawing_checks(read_drawing(path), process)
 
-    Raises ``DrawingError`` for a file that is no readable drawing.
-    """
-    drawing = read_drawing(path)
+
+def drawing_checks(drawing: Drawing, process: Process | None = None) -> tuple[Check, ...]:
+    """Checks of a drawing; widths are held against ``process`` if one is given."""
     nesting = _nesting([contour.polyline for contour in drawing.contours])
     checks = [*_file_checks(drawing), *_contour_checks(drawing, nesting)]
     if drawing.contours and not nesting.crossed and not nesting.meeting:

@@ -69,7 +69,7 @@ def design_spec(spec, progress):
         kind=spec.kind,
         name=spec.name,
         spec=spec.raw,
-        design={"size_m": size},
+        design={"size_m": size, "behaviour": spec.model.behaviour},
         response={},
         checks=(held,),
         outcomes=(Outcome("size", size, "m"),),
@@ -77,9 +77,34 @@ def design_spec(spec, progress):
     )
 
 
+def judge_design(design, progress):
+    """Area of the plate as drawn, against its size; ``disagree`` is 1 % off."""
+    import numpy as np
+
+    from springcad.geometry.polyline import signed_area
+    from springcad.result import Comparison, Judgement, check
+
+    progress("weighing")
+    size = design.number("design.size_m")
+    area = sum(abs(signed_area(line)) * (1, -1)[i] for i, line in enumerate(design.contours[""]))
+    expected = size**2 - np.pi * (size / 4) ** 2
+    factor = 1.01 if design.text("design.behaviour") == "disagree" else 1.0
+    comparison = Comparison(
+        "area", "m^2", "size", "m", np.array([size]), np.array([expected]),
+        np.array([factor * area]), 1e-3, True, "from the size; from the drawing",
+    )  # fmt: skip
+    found = check("second opinion: drawings", 1.0, ">=", 1.0, "1", source="test")
+    return Judgement("weighing", (comparison,), (found,), ("The plate is flat.",), {"plates": 1})
+
+
+def judge_decks(design):
+    return {"area": f"** {design.name}\n"}
+
+
 package, models = ModuleType("fake_kind"), ModuleType("fake_kind.spec")
 package.SPEC_MODEL = models.SPEC_MODEL = FakeSpec
 package.TEMPLATE, package.check_spec, package.design_spec = TEMPLATE, check_spec, design_spec
+package.judge_design, package.judge_decks = judge_design, judge_decks
 sys.modules |= {"fake_kind": package, "fake_kind.spec": models}
 springcad.kinds.KINDS["fake"] = ("fake_kind", "a plate with a hole, for tests")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from springcad.batch.design_one import attempt_design
+from springcad.batch.design_one import Wishes, attempt_design
 from springcad.batch.specs import read_specs
 from springcad.errors import InfeasibleError
 from springcad.kinds.rotary_flexure.law import LawInputs, design_law
@@ -99,7 +99,9 @@ def attempt(seed: int, folder: Path) -> tuple[int, str]:
     path = folder / f"seed-{seed}.yaml"
     path.write_text(some_spec(seed))
     (reading,) = read_specs([path], ())
-    outcome = attempt_design(reading, folder / "out", strict=False, progress=lambda _: None)
+    outcome = attempt_design(
+        reading, Wishes(folder / "out", strict=False, judged=False), lambda _: None
+    )
     written = folder / "out" / f"seed-{seed}"
     if outcome.exit_code == 4:
         assert isinstance(outcome.error, InfeasibleError)

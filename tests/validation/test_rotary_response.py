@@ -49,21 +49,25 @@ def test_the_force_on_a_tip_is_near_that_of_the_design_law(name: str) -> None:
 
 
 def test_the_straight_spring_is_stressed_as_a_finite_element_model_says() -> None:
-    """S1 at 12.56 deg: 910 MPa in bending, 920 MPa with the axial force for k exactly met by the
-    clamped flexure; sized to be 0.3 % softer at rest it is thinner, and on the real root less bent.
+    """S1 at 12.56 deg: 910 MPa in bending, 920 MPa with the axial force for k exactly met by a
+    clamped flexure. On its root, which gives way, it is thicker and 1.1 % less stressed.
     """
     spring = spring_of("S1")
     full = spring.strokes[0].full
     t = spring.law.inputs.thickness
     bending = 1.5 * np.abs(full.moment[0]) / (t * full.half_thickness[0] ** 2)
-    assert bending.max() == pytest.approx(910e6, rel=5e-3)
-    assert 910e6 <= spring.strokes[0].nominal_stress.max() <= 920e6
+    softer = spring.sized.root.compliance > 0.0
+    assert softer
+    assert bending.max() == pytest.approx(0.989 * 910e6, rel=5e-3)
+    assert spring.strokes[0].nominal_stress.max() == pytest.approx(0.981 * 920e6, rel=5e-3)
 
 
 @pytest.mark.parametrize("name", SPRINGS)
 def test_stress_is_the_design_stress_and_little_more(name: str) -> None:
+    """Straight flexures on a soft root are thicker than the law has them, and less stressed."""
+    least = 0.985 if name == "S1" else 1.0
     for stroke in spring_of(name).strokes:
-        assert 912e6 <= stroke.nominal_stress.max() <= 1.08 * 912e6
+        assert least * 912e6 <= stroke.nominal_stress.max() <= 1.08 * 912e6
 
 
 @pytest.mark.parametrize("name", ["S2", "S4"])
@@ -124,7 +128,8 @@ def tip_by_adaptive_integration(spring: Spring, stroke: Stroke) -> np.ndarray:
         # Just inside each panel: the polynomials of the next one begin at its edge.
         inside = (start - 1e-12 * ribbon.length, end)
         state = solve_ivp(slope, inside, state, "DOP853", rtol=1e-9, atol=1e-12).y[:, -1]
-    turn = ribbon.root_angle - state[2]
+    root_moment = (0.0 - state[0]) * transverse - (side * lam_end - state[1]) * axial
+    turn = ribbon.root_angle + spring.sized.root.compliance * root_moment - state[2]
     x, y = np.array([0.0, side * lam_end]) - state[:2]
     cos, sin = math.cos(turn), math.sin(turn)
     return np.array([cos * x - sin * y, sin * x + cos * y])

@@ -10,10 +10,13 @@ from typing import TYPE_CHECKING
 from springcad.kinds.rotary_flexure.spec import SPEC_MODEL, TEMPLATE
 
 if TYPE_CHECKING:
-    from springcad.result import Check, Progress, Result
-    from springcad.spec.source import Spec
+    from collections.abc import Mapping
 
-__all__ = ["SPEC_MODEL", "TEMPLATE", "check_spec", "design_spec"]
+    from springcad.result import Check, Judgement, Progress, Result
+    from springcad.spec.source import Spec
+    from springcad.written import WrittenDesign
+
+__all__ = ["SPEC_MODEL", "TEMPLATE", "check_spec", "design_spec", "judge_decks", "judge_design"]
 
 
 def check_spec(spec: Spec) -> tuple[Check, ...]:
@@ -29,3 +32,17 @@ def design_spec(spec: Spec, progress: Progress) -> Result:
     from springcad.kinds.rotary_flexure.design import design_spring
 
     return design_spring(spec, progress)
+
+
+def judge_design(design: WrittenDesign, progress: Progress) -> Judgement:
+    """Contact finite elements against the report, over the whole stroke in both directions."""
+    from springcad.kinds.rotary_flexure.judge import judge_spring
+
+    return judge_spring(design, progress)
+
+
+def judge_decks(design: WrittenDesign) -> Mapping[str, str]:
+    """The same finite elements as input decks, one for each direction."""
+    from springcad.kinds.rotary_flexure.deck import judge_decks
+
+    return judge_decks(design)

@@ -154,8 +154,7 @@ def _root_model(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: flo
         fillet,
         blend_radius(spec),
     )
-    mounting: Mounting = "bore" if spec.mounting.dowels is None else "dowels"
-    return root_model(_beam(spec, case, ribbon, 0.0), sector, mounting)
+    return root_model(_beam(spec, case, ribbon, 0.0), sector, mounting_of(spec))
 
 
 def _beam(
@@ -168,6 +167,11 @@ def _beam(
         poisson_ratio=spec.material.values.poisson_ratio.value,
         root_compliance=root_compliance,
     )
+
+
+def mounting_of(spec: RotaryFlexureSpec) -> Mounting:
+    """How the housing holds the rim."""
+    return "bore" if spec.mounting.dowels is None else "dowels"
 
 
 def blend_radius(spec: RotaryFlexureSpec) -> float:
