@@ -22,7 +22,7 @@ help:
 	@echo "make lint     ruff: rules and layout of the code"
 	@echo "make types    mypy, strict"
 	@echo "make imports  import-linter: dependencies run one way"
-	@echo "make bench    compare the optimiser with the published method; writes bench.json"
+	@echo "make bench    compare optimiser, beam and finite elements with others; writes bench*.json"
 	@echo "make docs     renew what the docs quote from the program"
 	@echo "make lock     renew requirements.lock from pyproject.toml (needs uv)"
 	@echo "make clean    remove .venv, caches and out/"
@@ -65,6 +65,7 @@ imports: $(READY)
 
 bench: $(READY)
 	@$(PYTHON) bench/optimiser.py --json bench.json
+	@$(PYTHON) bench/mechanics.py --json bench-mechanics.json
 
 docs: $(READY)
 	@$(PYTHON) docs/generate.py
@@ -75,6 +76,6 @@ lock:
 	  --python-version 3.11 --no-header --no-annotate -o requirements.lock
 
 clean:
-	rm -rf $(VENV) out build dist bench.json .mypy_cache .ruff_cache .pytest_cache \
+	rm -rf $(VENV) out build dist bench.json bench-mechanics.json .mypy_cache .ruff_cache .pytest_cache \
 	  .import_linter_cache .hypothesis *.egg-info
 	find . -name __pycache__ -prune -exec rm -rf {} +
