@@ -44,7 +44,7 @@ def test_needles_are_as_far_apart_as_their_tips(count: int) -> None:
     strip = shapely.Polygon(np.concatenate([top, nose, (top * [1.0, -1.0])[::-1]]))
     tip_gap = 2.0 * contact * math.sin(math.pi / count) - 2.0 * half
     inner = 2.0 * (contact * math.sin(math.pi / count) - half * math.cos(math.pi / count))
-    gap = polygon_gap(strip, root, count)
+    gap = polygon_gap(strip, (root, 0.0), count)
     assert tip_gap - 1e-7 <= gap <= inner + 1e-7
 
 
@@ -57,7 +57,7 @@ def test_overlapping_flexures_have_a_gap_below_zero_that_grows_with_the_overlap(
 
 def test_a_flexure_that_crosses_itself_has_no_gap_at_all() -> None:
     bow_tie = shapely.Polygon([(0.0, 0.0), (1e-3, 1e-3), (1e-3, 0.0), (0.0, 1e-3)])
-    assert polygon_gap(bow_tie, 31e-3, 24) == -math.inf
+    assert polygon_gap(bow_tie, (31e-3, 0.0), 24) == -math.inf
 
 
 @pytest.mark.parametrize("name", ["S1", "S2", "S4", "rotary-full"])

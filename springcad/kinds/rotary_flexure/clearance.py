@@ -28,7 +28,7 @@ def flexure_gap(ribbon: Ribbon, root_radius: float, count: int) -> float:
     points = ribbon.at(ribbon.dense_stations(STATIONS))
     centre_line = np.column_stack([points.x, points.y])
     polygon = ribbon_polygon(centre_line, points.angle, points.half_thickness)
-    return polygon_gap(polygon, root_radius, count)
+    return polygon_gap(polygon, (root_radius, 0.0), count)
 
 
 def deformed_gaps(
@@ -40,7 +40,7 @@ def deformed_gaps(
     lines, angles = deformed_points(beam, states, stations)
     return np.array(
         [
-            polygon_gap(ribbon_polygon(line, angle, half), root_radius, count)
+            polygon_gap(ribbon_polygon(line, angle, half), (root_radius, 0.0), count)
             for line, angle in zip(lines, angles, strict=True)
         ]
     )
@@ -57,15 +57,17 @@ def ribbon_polygon(centre_line: Floats, angle: Floats, half_thickness: Floats) -
     )
 
 
-def polygon_gap(polygon: shapely.Polygon, root_radius: float, count: int) -> float:
+def polygon_gap(polygon: shapely.Polygon, centre: tuple[float, float], count: int) -> float:
     """Distance of a flexure to its neighbour; minus the root of their common area if they overlap.
+
+    ``centre`` is that of the ring.
 
     -inf for a polygon that crosses itself: an edge has folded over.
     """
     if not polygon.is_valid:
         return -math.inf
     neighbour = shapely.affinity.rotate(
-        polygon, 2.0 * math.pi / count, origin=(root_radius, 0.0), use_radians=True
+        polygon, 2.0 * math.pi / count, origin=centre, use_radians=True
     )
     distance = float(polygon.distance(neighbour))
     if distance > 0.0:

@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
-import shapely.affinity
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from springcad.kinds.rotary_flexure.clearance import polygon_gap
 from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
 from springcad.kinds.rotary_flexure.flexure_contact import global_points
 from springcad.kinds.rotary_flexure.root_compliance import sector_supports
@@ -123,20 +123,19 @@ def torque(sector: SectorContact, turn: Turn) -> float:
 
 
 def neighbour_gap(sector: SectorContact, turn: Turn) -> float:
-    """Smallest distance between the deformed flexure and its neighbour (m); 0 if they meet."""
+    """Smallest gap between the deformed flexure and its neighbour (m), as ``polygon_gap``."""
     moved = sector.mesh.nodes + turn.state.displacement.reshape(-1, 2)
     edges = np.concatenate(
         [sector.mesh.edge_sets[name] for name in ("flank_right", "nose", "flank_left")]
     )
-    shape, _ = edge_shape_functions(np.linspace(-1.0, 1.0, CHORDS + 1))
-    outline = shapely.MultiLineString(list(shape @ moved[edges]))
-    pitch = 2.0 * math.pi / sector.spring.sector.count
-    neighbour = shapely.affinity.rotate(outline, pitch, (0.0, 0.0), use_radians=True)
-    return float(outline.distance(neighbour))
+    shape, _ = edge_shape_functions(np.linspace(-1.0, 1.0, CHORDS, endpoint=False))
+    outline = shapely.Polygon((shape @ moved[edges]).reshape(-1, 2))
+    return polygon_gap(outline, (0.0, 0.0), sector.spring.sector.count)
 
 
 def contact_pressure(sector: SectorContact, turn: Turn) -> float:
-    """Peak pressure between pad and flank (Pa); infinite where the contact is at a corner.
+    """Peak pressure between pad and flank (Pa); infinite where the contact is at a corner, not a
+    number where the flank is hollow or so flat that there is no strip.
 
     The elements of the sector are longer than the contact strip: they give its force and place,
     and a block of the pad, pressed there on the flank as drawn, the pressure. Both bodies are
@@ -149,13 +148,16 @@ def contact_pressure(sector: SectorContact, turn: Turn) -> float:
     middle = np.einsum("kg,kgi->i", shares, contact.positions) / shares.sum()
     sheet = sector.spring.sheet
     modulus = contact_modulus(*(sheet.elastic_modulus, sheet.poisson_ratio) * 2)
-    return pad_pressure(
-        sector.profile,
-        rotated(middle, np.asarray(-turn.state.load.rotation)),
-        float(np.hypot(*contact.force)),
-        half_thickness=sector.spring.tip_half_thickness,
-        sheet=replace(sheet, elastic_modulus=modulus),
-    ).peak_pressure
+    try:
+        return pad_pressure(
+            sector.profile,
+            rotated(middle, np.asarray(-turn.state.load.rotation)),
+            float(np.hypot(*contact.force)),
+            half_thickness=sector.spring.tip_half_thickness,
+            sheet=replace(sheet, elastic_modulus=modulus),
+        ).peak_pressure
+    except ValueError:
+        return math.nan
 
 
 def fillet_stress(sector: SectorContact, turn: Turn) -> float:

@@ -27,7 +27,7 @@ from springcad.mechanics.fem.constraints import prescribe, solve_constraints
 from springcad.mechanics.fem.element import edge_shape_functions
 from springcad.mechanics.fem.mesh import Mesh
 from springcad.mechanics.fem.newton import prepare_model
-from springcad.mechanics.fem.rigid_profile import RigidProfile, project
+from springcad.mechanics.fem.rigid_profile import Projection, RigidProfile, project
 
 Floats = NDArray[np.float64]
 
@@ -45,6 +45,9 @@ MIDDLE = 0.6
 MARGIN = 2
 """A strip nearer to an end of the profile than this many elements runs off it."""
 
+WIDEST = 0.7
+"""Widest half width of a strip over half the depth of the block."""
+_PASSES = 4
 _MAX_CHANGES = 100
 
 
@@ -112,13 +115,12 @@ def pad_pressure(
             meshes.
 
     Raises:
-        ValueError: the profile is not convex at the place, or the force does not push.
+        ValueError: the profile is not convex at the place, the force does not push, or the strip
+            is wider than 0.35 depths.
         ArithmeticError: no pressure without penetration was found.
     """
     near = project(profile, point)
-    if not (force > 0.0 and near.curvature > 0.0):
-        raise ValueError("a contact strip needs a positive force on a convex profile")
-    strip = float(half_width(force, sheet.thickness, near.curvature, sheet.elastic_modulus))
+    strip = _expected_half_width(profile, near, force, half_thickness, sheet)
     mesh = _block(strip, 2.0 * half_thickness, elements)
     origin = point - near.gap * near.normal
 
@@ -133,6 +135,27 @@ def pad_pressure(
     pressures = _least_energy(compliance(pad, surface.pushes), surface, force)
     beyond = gaps(surface.corners) >= half_thickness
     return _pad_contact(surface.corners, pressures, beyond)
+
+
+def _expected_half_width(
+    profile: RigidProfile, near: Projection, force: float, half_thickness: float, sheet: Sheet
+) -> float:
+    """After Hertz, for the curvature that the profile has over the strip as a whole (m).
+
+    Arcs of a drawing change their curvature within a strip, from one to the next even to none.
+    """
+    widest = WIDEST * half_thickness
+    on_profile = profile.curve(near.place)
+    reach = widest
+    for _ in range(_PASSES):
+        ends = project(profile, on_profile + reach * np.stack([near.tangent, -near.tangent]))
+        curvature = 2.0 * float(np.mean(np.minimum(ends.gap, reach))) / reach**2
+        if not (force > 0.0 and curvature > 0.0):
+            raise ValueError("a contact strip needs a positive force on a convex profile")
+        reach = float(half_width(force, sheet.thickness, curvature, sheet.elastic_modulus))
+        if reach > widest:
+            raise ValueError("the contact strip is too wide for the depth of the pad")
+    return reach
 
 
 def _block(strip: float, depth: float, elements: int) -> Mesh:
