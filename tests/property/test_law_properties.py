@@ -44,7 +44,7 @@ def springs(draw) -> LawInputs:
     )
     straight = design_law(shape).straight_deflection
     sized = replace(shape, deflection=straight * draw(st.floats(0.45, 2.0)))
-    tip = design_law(sized).root_half_thickness * draw(st.floats(0.0, 0.5))
+    tip = design_law(sized).root_half_thickness * draw(st.just(0.0) | st.floats(1e-6, 0.5))
     return replace(sized, tip_half_thickness=tip)
 
 

@@ -23,8 +23,6 @@ from springcad.kinds.rotary_flexure.deck import (
 )
 from springcad.kinds.rotary_flexure.judge import SHARES
 from springcad.kinds.rotary_flexure.sector_contact import (
-    SectorContact,
-    Turn,
     sector_contact,
     turn_through,
 )
@@ -74,8 +72,11 @@ def test_calculix_repeats_the_second_opinion_to_the_full_deflection(
     name: str,
     direction: int,
 ) -> None:
-    """Torque and contact force within 0.5 %, tip within 0.2 %, stress at mid-flexure within 1 %."""
-    sector, turns = turned(name, direction, SHARES[1:])
+    """Torque and contact force within 0.5 %, tip within 0.2 %, stress at mid-flexure within 1 %.
+
+    The direction of the force agrees within 0.01 rad: CalculiX takes it from faces, not the curve.
+    """
+    sector, turns = turned(name, direction, (0.5, 0.75, 1.0))
     deck = sector_deck(sector, turns, name)
     printed = calculix_prints(require_tool("ccx"), deck, tmp_path, timeout=400)
     theirs, ours = contact_forces(printed)[1::2], findings(deck)
@@ -84,7 +85,11 @@ def test_calculix_repeats_the_second_opinion_to_the_full_deflection(
     np.testing.assert_allclose(
         direction * theirs[:, 2] * slice_factor(sector), ours[:, 2], rtol=5e-3
     )
-    assert_same_forces(theirs, sector, turns, 5e-3)
+    expected = [turn.state.contact.force for turn in turns if turn.state.contact is not None]
+    scaled = np.array(expected) * SLICE / sector.spring.sheet.thickness
+    np.testing.assert_allclose(np.hypot(*theirs[:, :2].T), np.hypot(*scaled.T), rtol=5e-3)
+    angles = [np.arctan2(*forces[:, 1::-1].T) for forces in (theirs, scaled)]
+    np.testing.assert_allclose(angles[0], angles[1], atol=1e-2)
 
     tip = sector.mesh.node_sets["tip"]
     moved = printed_vectors(printed, "displacements", "PART", tip)[1::2]
@@ -94,16 +99,6 @@ def test_calculix_repeats_the_second_opinion_to_the_full_deflection(
 
     stresses = nodal_stresses(tmp_path / "job.frd", middle_nodes(sector))[1::2]
     np.testing.assert_allclose(stresses[:, :, :2].sum(axis=-1), ours[:, 4:6], rtol=1e-2)
-
-
-def assert_same_forces(
-    theirs: np.ndarray, sector: SectorContact, turns: Sequence[Turn], tolerance: float
-) -> None:
-    """Size and direction of the contact force agree."""
-    for force, turn in zip(theirs[:, :2], turns, strict=True):
-        assert turn.state.contact is not None
-        expected = turn.state.contact.force * SLICE / sector.spring.sheet.thickness
-        assert np.hypot(*(force - expected)) < tolerance * np.hypot(*expected)
 
 
 @pytest.fixture(scope="module")
