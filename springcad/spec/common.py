@@ -162,6 +162,14 @@ class ProcessSpec(Section):
         return replace(process(self.name), **own)
 
 
+def below_process(what: str, length: float, least: float, process: ProcessSpec) -> str | None:
+    """Message for a ``length`` below what the process can make; round-off of inputs is allowed."""
+    if length >= least * (1.0 - 1e-9):
+        return None
+    can = f"the {show(least, LENGTH)} that {process.name} can make"
+    return f"{what} of {show(length, LENGTH)} is below {can}"
+
+
 def _as_section(value: object) -> object:
     if not isinstance(value, (str, dict)):
         raise ValueError("must be the name of a process, or a section with name and shop rules")

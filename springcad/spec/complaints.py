@@ -10,9 +10,10 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from springcad.errors import Problem
+from springcad.spec.csv_columns import FaultsError
 from springcad.spec.rules import section_of
 from springcad.spec.text import listing, nearest, printable, unknown
-from springcad.spec.tree import MAX_PROBLEMS, Path, Tree, dotted
+from springcad.spec.tree import MAX_PROBLEMS, Path, Place, Tree, dotted
 from springcad.spec.tree import nearest as nearest_place
 
 _MESSAGES = {
@@ -51,8 +52,22 @@ def complaints(
                 what = _description(path, model)
                 yield nearest_place(tree.values, path).problem(f"missing: {what}", dotted(path))
             continue
+        cause = error.get("ctx", {}).get("error")
+        if isinstance(cause, FaultsError):
+            yield from _faults(cause, path, tree)
+            continue
         key = dotted(_typed(path, tree.data))
         yield nearest_place(tree.values, path).problem(_message(error), key)
+
+
+def _faults(cause: FaultsError, path: Path, tree: Tree) -> Iterator[Problem]:
+    """The faults of one value, each where it stands, in the spec or in a file that it names."""
+    for where, message in cause.faults:
+        if isinstance(where, Place):
+            yield where.problem(message)
+        else:
+            place = nearest_place(tree.values, (*path, *where))
+            yield place.problem(message, dotted(path))
 
 
 def _loc(error: ErrorDetails) -> Path:

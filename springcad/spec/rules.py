@@ -64,19 +64,26 @@ def parts_of(model: BaseModel, path: Path = ()) -> Iterator[tuple[Path, Any]]:
 
 
 def valid_parts(
-    model: type[BaseModel], data: Mapping[str, Any], bad: Collection[Path], path: Path = ()
+    model: type[BaseModel],
+    data: Mapping[str, Any],
+    bad: Collection[Path],
+    context: Mapping[str, Any],
+    path: Path = (),
 ) -> Iterator[tuple[Path, Any]]:
-    """The same for ``data`` that is not valid at the paths ``bad``: what stays when they go."""
+    """The same for ``data`` that is not valid at the paths ``bad``: what stays when they go.
+
+    ``context`` is that of the validation, as pydantic takes it.
+    """
     good: dict[str, Any] = {}
     for name, field in model.model_fields.items():
         inner = (*path, name)
         if not any(place[: len(inner)] == inner for place in bad):
             good[name] = (field.annotation, field)
         elif (section := section_of(field)) and isinstance(data.get(name), dict):
-            yield from valid_parts(section, data[name], bad, inner)
+            yield from valid_parts(section, data[name], bad, context, inner)
     sound = create_model(model.__name__, __base__=Section, **good)
     values = {name: data[name] for name in good if name in data}
-    yield from parts_of(sound.model_validate(values), path)
+    yield from parts_of(sound.model_validate(values, context=dict(context)), path)
 
 
 def section_of(field: FieldInfo) -> type[Section] | None:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import codecs
 import hashlib
 import json
 import re
-import stat
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
@@ -18,9 +16,11 @@ from pydantic import ValidationError
 from springcad.errors import Problem, SpecError
 from springcad.spec.common import CommonSpec
 from springcad.spec.complaints import complaints
+from springcad.spec.file_text import read_text
+from springcad.spec.points import FOLDER
 from springcad.spec.rules import broken_rules, valid_parts
 from springcad.spec.text import printable, unknown
-from springcad.spec.tree import MAX_BYTES, MAX_PROBLEMS, Path, Place, Tree, dotted, nearest, parse
+from springcad.spec.tree import MAX_PROBLEMS, Path, Place, Tree, dotted, nearest, parse
 
 OVERRIDE = "--set"
 
@@ -58,7 +58,7 @@ def read_spec(path: FilePath, overrides: Sequence[str] = ()) -> Spec:
     Raises SpecError with every problem, in the order of the file, those of the overrides last.
     """
     shown = printable(path, longest=500)
-    tree = parse(_text(path, shown), shown)
+    tree = parse(read_text(path, shown), shown)
     for override in overrides:
         _put(tree, override)
     if () in tree.refused:
@@ -66,7 +66,7 @@ def read_spec(path: FilePath, overrides: Sequence[str] = ()) -> Spec:
     if not isinstance(tree.data, dict):
         what = "a spec is a list of keys with values, such as `kind: rotary-flexure`"
         raise _spec_error([*tree.problems, tree.values[()].problem(what)])
-    model = _validated(tree)
+    model = _validated(tree, path.parent)
     if tree.problems or model is None:
         raise _spec_error(tree.problems)
     return Spec(
@@ -84,7 +84,8 @@ def identity(model: CommonSpec) -> str:
     """SHA-256 of all values in SI to 12 digits, defaults included, in a fixed order of keys.
 
     So it does not depend on comments, layout, order, the unit a value is given in, or on whether
-    a default is written out.
+    a default is written out. What stands in a file that the spec names counts as if it stood in
+    the spec.
     """
     values = _rounded(model.model_dump())
     text = json.dumps(values, sort_keys=True, separators=(",", ":"), allow_nan=False)
@@ -94,12 +95,14 @@ def identity(model: CommonSpec) -> str:
 def _rounded(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _rounded(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_rounded(inner) for inner in value]
     return float(f"{value:.12g}") if isinstance(value, float) else value
 
 
 def _spec_error(problems: Iterable[Problem]) -> SpecError:
     """The problems in order; beyond the first hundred only their number."""
-    ordered = sorted(dict.fromkeys(problems), key=lambda p: (p.file == OVERRIDE, p.line, p.column))
+    ordered = sorted(dict.fromkeys(problems), key=_order)
     shown = ordered[:MAX_PROBLEMS]
     if more := ordered[MAX_PROBLEMS:]:
         first = more[0]
@@ -107,34 +110,8 @@ def _spec_error(problems: Iterable[Problem]) -> SpecError:
     return SpecError(shown)
 
 
-def _text(path: FilePath, shown: str) -> str:
-    """What stands in the file."""
-    start = Place(shown, 1, 1)
-    try:
-        mode = path.stat().st_mode
-        if stat.S_ISDIR(mode):
-            raise _spec_error([start.problem("is a folder, not a file")])
-        if not stat.S_ISREG(mode):
-            raise _spec_error([start.problem("is not a regular file")])
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:  # ValueError: a null character in the name
-        reason = getattr(error, "strerror", None) or str(error)
-        raise _spec_error([start.problem(f"cannot be read: {reason}")]) from error
-    if len(data) > MAX_BYTES:
-        raise _spec_error([start.problem(f"larger than {MAX_BYTES >> 10} KiB")])
-    if b"\0" in data:
-        raise _spec_error([start.problem("is not a text file (it holds null bytes)")])
-    data = data.removeprefix(codecs.BOM_UTF8)
-    try:
-        return data.decode("utf-8")
-    except UnicodeDecodeError as error:
-        before = data[: error.start].decode("utf-8")
-        line = before.count("\n") + 1
-        column = len(before) - (before.rfind("\n") + 1) + 1
-        byte = f"the byte 0x{data[error.start]:02X}"
-        message = f"is not UTF-8 text: {byte} is no part of a character"
-        raise _spec_error([Place(shown, line, column).problem(message)]) from error
+def _order(problem: Problem) -> tuple[bool, str, int, int]:
+    return problem.file == OVERRIDE, problem.file, problem.line, problem.column
 
 
 def _put(tree: Tree, override: str) -> None:
@@ -170,16 +147,20 @@ def _put(tree: Tree, override: str) -> None:
         tree.keys[path + below] = tree.values[path + below] = place
 
 
-def _validated(tree: Tree) -> CommonSpec | None:
-    """The model of the tree's values; None, with the problems in the tree, if it is not valid."""
+def _validated(tree: Tree, folder: FilePath) -> CommonSpec | None:
+    """The model of the tree's values; None, with the problems in the tree, if it is not valid.
+
+    Files that the spec names are looked for in ``folder``.
+    """
     kind, data = _kind(tree)
+    context = {FOLDER: folder}
     try:
-        return kind.model_validate(data)
+        return kind.model_validate(data, context=context)
     except ValidationError as error:
         errors = error.errors(include_url=False)
     tree.problems += complaints(errors, kind, tree)
     bad = [tuple(str(key) for key in e["loc"]) for e in errors if e["loc"]]
-    parts = dict(valid_parts(kind, data, [*bad, *tree.refused]))
+    parts = dict(valid_parts(kind, data, [*bad, *tree.refused], context))
     for path, message in broken_rules(kind.RULES, parts):
         tree.problems.append(nearest(tree.values, path).problem(message, dotted(path)))
     return None

@@ -31,7 +31,6 @@ from ruamel.yaml.events import (
 from springcad.errors import Problem
 from springcad.spec.text import UNSAFE, printable
 
-MAX_BYTES = 256 * 1024  # ruamel.yaml takes up to a second for a MiB; a spec has a few KiB
 MAX_LINES = 20_000
 MAX_EVENTS = 20_000
 MAX_DEPTH = 32

@@ -53,7 +53,7 @@ _SPELLINGS = str.maketrans(
 )
 
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?(?![0-9.,])")
-_UNIT = r"[A-Za-z]+(?:\^?-?[1-4])?"
+_UNIT = r"[A-Za-z]+(?:\^?-?[1-9])?"
 _PRODUCT = rf"{_UNIT}(?:[*/]{_UNIT})*"
 _FACTOR = rf"(?:{_UNIT}|\({_PRODUCT}\))"
 _EXPRESSION = re.compile(rf"{_FACTOR}(?:[*/]{_FACTOR})*")
@@ -102,6 +102,7 @@ STIFFNESS = Dimension(
     "N*m/rad",
     ("N*m/rad", "N*m/deg", "Nm/rad", "Nm/deg", "N*mm/rad", "N*mm/deg", "lbf*in/rad", "lbf*in/deg"),
 )
+LINEAR_STIFFNESS = Dimension("a linear stiffness", "N/mm", ("N/mm", "N/m", "kN/mm", "lbf/in"))
 DENSITY = Dimension("a density", "kg/m^3", ("kg/m^3", "g/cm^3"))
 TORQUE = Dimension("a torque", "N*m", ("N*m", "Nm", "N*mm", "lbf*in"))
 FORCE = Dimension("a force", "N", ("N", "kN", "lbf"))
@@ -162,7 +163,7 @@ def _expression(text: str, dimension: Dimension) -> str:
 
 def _pint(expression: str) -> str:
     """Powers as pint writes them: ``mm^2`` and ``mm2`` become ``mm**2``."""
-    return re.sub(r"\^?(-?[1-4])", r"**\1", expression)
+    return re.sub(r"\^?(-?[1-9])", r"**\1", expression)
 
 
 def _usual(dimension: Dimension) -> str:

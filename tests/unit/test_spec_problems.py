@@ -181,7 +181,7 @@ def changed(old: str, new: str) -> str:
         (
             "kind: rotary-flexure",
             "kind: leaf-2dof",
-            "spec.yaml:2:7: kind: unknown kind leaf-2dof; known: rotary-flexure",
+            "spec.yaml:2:7: kind: unknown kind leaf-2dof; known: rotary-flexure or roller-cam",
         ),
         (
             "name: knee-s2",

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from springcad.errors import InfeasibleError
+from springcad.kinds.knobs import Knob, remedies
 from springcad.kinds.rotary_flexure.law import DesignLaw, LawInputs, design_law
-from springcad.kinds.rotary_flexure.remedies import Knob, remedies
 from springcad.kinds.rotary_flexure.room import (
     deflection_bound,
     hub_shear_stress,

@@ -22,6 +22,7 @@ from springcad.spec.common import (
     ProcessSpec,
     TorsionalStiffness,
     angle,
+    below_process,
     default,
 )
 from springcad.spec.rules import Rule, Section, rule
@@ -125,7 +126,9 @@ class Optimiser(Section):
 def _rim(root: float, outer: float, process: ProcessSpec) -> str | None:
     if root >= outer:
         return f"must be less than outer_radius, {show(outer, LENGTH)}"
-    return _least("a rim (outer less root radius)", outer - root, process.rules.min_web, process)
+    return below_process(
+        "a rim (outer less root radius)", outer - root, process.rules.min_web, process
+    )
 
 
 @rule("envelope.contact_radius", "envelope.root_radius")
@@ -142,19 +145,19 @@ def _bore(bore: float | None, contact: float) -> str | None:
 
 @rule("flexures.tip_thickness", "process")
 def _tip(tip: float, process: ProcessSpec) -> str | None:
-    return _least("a web", tip, process.rules.min_web, process)
+    return below_process("a web", tip, process.rules.min_web, process)
 
 
 @rule("flexures.min_gap", "process")
 def _gap(gap: float | None, process: ProcessSpec) -> str | None:
-    return None if gap is None else _least("a gap", gap, process.rules.min_gap, process)
+    return None if gap is None else below_process("a gap", gap, process.rules.min_gap, process)
 
 
 @rule("flexures.root_fillet", "process")
 def _fillet(fillet: float | str, process: ProcessSpec) -> str | None:
     if isinstance(fillet, str):
         return None
-    return _least("an inside radius", fillet, process.rules.min_inside_radius, process)
+    return below_process("an inside radius", fillet, process.rules.min_inside_radius, process)
 
 
 @rule("mounting.dowels.radius", "envelope.root_radius", "envelope.outer_radius", "process")
@@ -162,7 +165,7 @@ def _dowel_depth(radius: float, root: float, outer: float, process: ProcessSpec)
     if root >= outer:
         return None
     web = outer - root - radius
-    return _least("a web between dowel and root radius", web, process.rules.min_web, process)
+    return below_process("a web between dowel and root radius", web, process.rules.min_web, process)
 
 
 @rule("mounting.dowels.count", "mounting.dowels.radius", "envelope.outer_radius")
@@ -193,14 +196,6 @@ def _only_control_points(key: str, optimiser: Optimiser) -> str | None:
     if optimiser.form == "control-points" or key not in optimiser.model_fields_set:
         return None
     return "has a meaning with form: control-points only"
-
-
-def _least(what: str, length: float, least: float, process: ProcessSpec) -> str | None:
-    """Message for a ``length`` below what the process can make; round-off of inputs is allowed."""
-    if length >= least * (1.0 - 1e-9):
-        return None
-    can = f"the {show(least, LENGTH)} that {process.name} can make"
-    return f"{what} of {show(length, LENGTH)} is below {can}"
 
 
 class RotaryFlexureSpec(CommonSpec):

@@ -90,7 +90,7 @@ def _chain(
     case: Case, turn: Turn, knobs: Sequence[Knob], failures: Callable[[Case], Sequence[str]]
 ) -> list[Turn]:
     """``turn`` and the further turns after which nothing fails; empty if none are found."""
-    case = _put(case, turn.knob, turn.value)
+    case = changed(case, turn.knob, turn.value)
     others = [knob for knob in knobs if knob != turn.knob]
     last = _turns(case, others, lambda tried: not failures(tried))
     if last:
@@ -124,7 +124,7 @@ def _turns(case: Case, knobs: Sequence[Knob], works: Callable[[Case], bool]) -> 
 
 def _turn(case: Case, knob: Knob, way: int, works: Callable[[Case], bool]) -> Turn | None:
     """The nearest value in one direction that works, and how far on it goes on working."""
-    start = _get(case, knob.target) / knob.scale
+    start = value_of(case, knob)
     if start == 0.0:
         return None
     digits = 0 if not knob.unit else 2 - math.floor(math.log10(start))
@@ -133,7 +133,7 @@ def _turn(case: Case, knob: Knob, way: int, works: Callable[[Case], bool]) -> Tu
         return round(index * 10.0**-digits, digits)
 
     def tried(index: int) -> bool:
-        return works(_put(case, knob, value(index)))
+        return works(changed(case, knob, value(index)))
 
     def edge(inside: int, outside: int, state: bool) -> int:
         """Between two indices of different state, the last one in ``state`` from ``inside``."""
@@ -162,13 +162,15 @@ def _turn(case: Case, knob: Knob, way: int, works: Callable[[Case], bool]) -> Tu
     return Turn(knob, start, value(first), None)
 
 
-def _get(case: Any, path: str) -> float:
-    for name in path.split("."):
+def value_of(case: Any, knob: Knob) -> float:
+    """The number that the knob turns, in the unit in which people type it."""
+    for name in knob.target.split("."):
         case = getattr(case, name)
-    return float(case)
+    return float(case) / knob.scale
 
 
-def _put(case: Case, knob: Knob, value: float) -> Case:
+def changed(case: Case, knob: Knob, value: float) -> Case:
+    """The case with the knob at ``value``, in the unit in which people type it."""
     si = value * knob.scale if knob.unit else int(value)
     return _replaced(case, knob.target, si)
 
