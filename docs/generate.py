@@ -70,12 +70,13 @@ def command_help() -> str:
     return "\n".join(passages)
 
 
-def spec_keys() -> str:
-    """Every key of a rotary flexure spec: what it may be, its default, what it means."""
-    from springcad.kinds.rotary_flexure.spec import SPEC_MODEL
+def spec_keys(kind: str) -> str:
+    """Every key of a spec of a kind: what it may be, its default, what it means."""
+    from springcad.kinds import load_kind
 
+    fields = load_kind(kind).SPEC_MODEL.model_fields
     rows = ["| key | value | default | meaning |", "|---|---|---|---|"]
-    rows += ["| " + " | ".join(row) + " |" for row in _spec_rows(SPEC_MODEL.model_fields, "")]
+    rows += ["| " + " | ".join(row) + " |" for row in _spec_rows(fields, "")]
     return "\n".join(rows) + "\n"
 
 
@@ -92,6 +93,8 @@ def _spec_rows(fields: dict[str, FieldInfo], prefix: str) -> Iterator[tuple[str,
 
 def _allowed(field: FieldInfo) -> str:
     from springcad.spec.common import NAME_PATTERN, OneOf, Quantity
+    from springcad.spec.lists import Bounds, Coefficients
+    from springcad.spec.points import CurvePoints
     from springcad.spec.rules import section_of
 
     for note in (field.annotation, *field.metadata, *_notes(field.annotation)):
@@ -100,6 +103,12 @@ def _allowed(field: FieldInfo) -> str:
             return f"{words}{note.dimension.name}, {note.low} to {note.high}"
         if isinstance(note, OneOf):
             return f"name of a {note.what}"
+        if isinstance(note, Bounds):
+            return f"{note.quantity.dimension.name}, or two: `[low, high]`"
+        if isinstance(note, Coefficients):
+            return "list of coefficients"
+        if isinstance(note, CurvePoints):
+            return "CSV file, or list of pairs"
     if section_of(field):
         return "section"
     if get_origin(field.annotation) is Literal:
@@ -169,20 +178,22 @@ def spec_s2() -> str:
     return f"```yaml\n{(ROOT / 'specs/S2.yaml').read_text(encoding='utf-8')}```\n"
 
 
-def template() -> str:
+def template(kind: str) -> str:
     """The commented spec of ``springcad init``."""
-    from springcad.kinds.rotary_flexure.spec import TEMPLATE
+    from springcad.kinds import load_kind
 
-    return f"```yaml\n{TEMPLATE}```\n"
+    return f"```yaml\n{load_kind(kind).TEMPLATE}```\n"
 
 
 PASSAGES: dict[str, Callable[[], str]] = {
     "commands": command_help,
-    "spec-keys": spec_keys,
+    "rotary-keys": lambda: spec_keys("rotary-flexure"),
+    "roller-keys": lambda: spec_keys("roller-cam"),
     "materials": material_names,
     "processes": process_rules,
     "spec-s2": spec_s2,
-    "template": template,
+    "rotary-template": lambda: template("rotary-flexure"),
+    "roller-template": lambda: template("roller-cam"),
 }
 
 

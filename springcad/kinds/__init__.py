@@ -20,6 +20,10 @@ KINDS = {
         "springcad.kinds.rotary_flexure",
         "ring of tapered straight or serpentine flexures and its camshaft (paper 004)",
     ),
+    "roller-cam": (
+        "springcad.kinds.roller_cam",
+        "cantilever and contact profile for a roller, for any torque law (paper 001)",
+    ),
 }
 """Name in the spec → (package, one line for people). Packages are imported only when needed."""
 

@@ -126,6 +126,7 @@ def solve_from_many(
     bounds: tuple[Floats, Floats],
     *,
     max_iterations: int = 200,
+    tolerance: float = 1e-6,
     progress: Callable[[str], None] = lambda _: None,
 ) -> list[Solution]:
     """Local minima from every start, in the order of the starts, on one BLAS thread.
@@ -135,7 +136,14 @@ def solve_from_many(
     solutions = []
     with threadpool_limits(1, user_api="blas"):
         for index, start in enumerate(starts):
-            solution = solve(problem, start, bounds, index=index, max_iterations=max_iterations)
+            solution = solve(
+                problem,
+                start,
+                bounds,
+                index=index,
+                max_iterations=max_iterations,
+                tolerance=tolerance,
+            )
             progress(f"start {index + 1}: objective {solution.objective:.4f}")
             solutions.append(solution)
     return solutions

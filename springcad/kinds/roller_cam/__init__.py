@@ -1,0 +1,48 @@
+"""Roller cam (paper 001): a cantilever and a contact profile for any torque law.
+
+Importing this package is cheap; what is slow to load is loaded when a function is called.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from springcad.kinds.roller_cam.spec import SPEC_MODEL, TEMPLATE
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from springcad.result import Check, Judgement, Progress, Result
+    from springcad.spec.source import Spec
+    from springcad.written import WrittenDesign
+
+__all__ = ["SPEC_MODEL", "TEMPLATE", "check_spec", "design_spec", "judge_decks", "judge_design"]
+
+
+def check_spec(spec: Spec) -> tuple[Check, ...]:
+    """Closed-form checks of a spec of this kind, well under a second."""
+    from springcad.kinds.roller_cam.feasibility import feasibility_checks
+    from springcad.kinds.roller_cam.inputs import case_of
+
+    return feasibility_checks(case_of(spec.model))
+
+
+def design_spec(spec: Spec, progress: Progress) -> Result:
+    """Design the element; InfeasibleError when no part can meet the spec."""
+    from springcad.kinds.roller_cam.design import design_joint
+
+    return design_joint(spec, progress)
+
+
+def judge_design(design: WrittenDesign, progress: Progress) -> Judgement:
+    """Contact finite elements against the report, over the whole stroke."""
+    from springcad.kinds.roller_cam.judge import judge_joint
+
+    return judge_joint(design, progress)
+
+
+def judge_decks(design: WrittenDesign) -> Mapping[str, str]:
+    """The same finite elements as input decks."""
+    from springcad.kinds.roller_cam.deck import judge_decks
+
+    return judge_decks(design)

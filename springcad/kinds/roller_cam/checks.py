@@ -1,0 +1,100 @@
+"""The claims that a finished roller cam must stand up to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from springcad.kinds.roller_cam.made import MadeJoint
+from springcad.kinds.roller_cam.remedies import contact_angle_remedy, interference_remedy
+from springcad.mechanics.contact import contact_modulus
+from springcad.result import Check, check
+
+TORQUE_TOLERANCE = 0.01
+"""Largest deviation from the law, over the full torque; relative to the law it is a warning."""
+STRESS_TOLERANCE = 0.01
+"""Stress counts as met within this share: the closed forms allow for as much."""
+INTERFERENCE = 2e-6
+"""Depth to which the calculated roller may cut into the profile beside its contact (m)."""
+PRESSURE_OVER_ULTIMATE = 1.6
+"""Hertzian pressure over tensile strength that hardened steel bears statically (common limit)."""
+
+
+def joint_checks(made: MadeJoint) -> tuple[Check, ...]:
+    """All checks, those made before the synthesis first."""
+    return (*made.feasibility, *_torque(made), *_contact(made), *_strength(made))
+
+
+def torque_errors(made: MadeJoint) -> tuple[float, float]:
+    """Largest |τ/τ_law − 1| over the stroke, and |τ − τ_law| over the full torque."""
+    wanted = made.law.torque(made.stroke.angle)
+    away = np.abs(made.stroke.torque - wanted)
+    return float(np.max(away / wanted)), float(np.max(away) / wanted[-1])
+
+
+def pressure(made: MadeJoint) -> np.ndarray:
+    """Hertzian, roller of the element's material (A,) [Pa]."""
+    beam = made.joint.cantilever
+    modulus = contact_modulus(*(beam.elastic_modulus, beam.poisson_ratio) * 2)
+    return np.asarray(made.stroke.pressure(beam.width, modulus))
+
+
+def _torque(made: MadeJoint) -> Iterator[Check]:
+    relative, absolute = torque_errors(made)
+    source = "forward analysis of the drawn profile, beam and contact part elastic"
+    remedy = "set compensation to compliance, or make the contact part thicker"
+    yield check(
+        "torque against the law, over the full torque", absolute, "<=", TORQUE_TOLERANCE, "1",
+        source=source, remedy=remedy,
+    )  # fmt: skip
+    yield check(
+        "torque against the law, relative, from 2.6 % of the stroke on", relative, "<=",
+        TORQUE_TOLERANCE, "1", source=source, remedy=remedy, otherwise="warn",
+    )  # fmt: skip
+    yield check(
+        "torque that the arcs of the drawing change, over the full torque",
+        made.drawn.torque_change, "<=", made.spec.torque_tolerance, "1",
+        source=f"drawn against designed profile; arcs within {1e6 * made.drawn.tolerance:.2g} um",
+        remedy="raise torque_tolerance: no drawing is finer", otherwise="warn",
+    )  # fmt: skip
+
+
+def _contact(made: MadeJoint) -> Iterator[Check]:
+    stroke = made.stroke
+    touching = np.flatnonzero(np.isfinite(stroke.gamma))
+    if len(touching):
+        worst = touching[int(np.argmax(stroke.gamma[touching]))]
+        gamma, angle = float(stroke.gamma[worst]), float(stroke.angle[worst])
+        yield check(
+            "contact angle round the roller", gamma, "<=", 0.5 * math.pi, "rad",
+            source="forward analysis; beyond it the cantilever cannot store more",
+            remedy=contact_angle_remedy(angle, gamma),
+        )  # fmt: skip
+    deepest = int(np.argmin(made.gap))
+    depth = max(0.0, -float(made.gap[deepest]))
+    yield check(
+        "interference of roller and profile in the stroke", depth, "<=", INTERFERENCE, "m",
+        source="smallest distance along the whole profile at every angle",
+        remedy=interference_remedy(float(stroke.angle[deepest]), depth),
+    )  # fmt: skip
+    ultimate = made.spec.material.values.ultimate_strength
+    if ultimate is None:
+        return
+    limit = PRESSURE_OVER_ULTIMATE * ultimate.value
+    yield check(
+        "contact pressure on the profile", float(np.max(pressure(made))), "<=", limit, "Pa",
+        source=f"Hertz; {PRESSURE_OVER_ULTIMATE:g} times the tensile strength",
+        remedy="a larger joint.roller_radius or a thicker sheet lowers it", otherwise="warn",
+    )  # fmt: skip
+
+
+def _strength(made: MadeJoint) -> Iterator[Check]:
+    allowed = made.spec.material.design_stress
+    stress = float(np.max(made.stroke.tip.stress))
+    yield check(
+        "nominal stress at the clamp", stress, "<=", (1.0 + STRESS_TOLERANCE) * allowed, "Pa",
+        source=f"beam, bending and axial, no notch; design stress + {STRESS_TOLERANCE:.0%}",
+        remedy="a larger joint.drum_radius or a stronger cantilever lowers it",
+    )  # fmt: skip

@@ -1,0 +1,64 @@
+"""A contact profile as a smooth curve through its contacts, in the frame of the tip."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BSpline, make_interp_spline
+
+Floats = NDArray[np.float64]
+
+QUINTIC = 5
+ENDS = 0.3e-3
+"""Length of the straight ends (m) that are looked at."""
+_DENSE = 800
+
+
+@dataclass(frozen=True)
+class ProfileCurve:
+    """The profile from its first contact on, the material to its left.
+
+    Attributes:
+        spline: points over the place, the length of the chords between contacts, from 0 [m].
+    """
+
+    spline: BSpline
+
+    @property
+    def length(self) -> float:
+        """Place of the last contact [m]."""
+        return float(self.spline.t[-1])
+
+    def points(self, place: Floats) -> Floats:
+        """Points (M, 2) at places (M,); before 0 and beyond the length on the end tangents."""
+        within = np.clip(place, 0.0, self.length)
+        return np.asarray(self.spline(within) + (place - within)[:, None] * self.tangents(place))
+
+    def tangents(self, place: Floats) -> Floats:
+        """Unit tangents (M, 2) towards larger places."""
+        slope = self.spline(np.clip(place, 0.0, self.length), 1)
+        return np.asarray(slope / np.hypot(*slope.T)[:, None])
+
+    def normals(self, place: Floats) -> Floats:
+        """Unit normals (M, 2) into the material."""
+        tangent = self.tangents(place)
+        return np.stack([-tangent[:, 1], tangent[:, 0]], axis=-1)
+
+    def curvature(self, place: Floats) -> Floats:
+        """Convex positive (M,) [1/m]; 0 on the straight ends."""
+        first, second = self.spline(place, 1), self.spline(place, 2)
+        cross = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+        within = (place >= 0.0) & (place <= self.length)
+        return np.where(within, cross / np.hypot(*first.T) ** 3, 0.0)
+
+    def dense(self, before: float = ENDS, beyond: float = ENDS, count: int = _DENSE) -> Floats:
+        """Evenly spaced points (count, 2) that stand for the curve with straight ends [m]."""
+        return self.points(np.linspace(-before, self.length + beyond, count))
+
+
+def curve_through(points: Floats, degree: int = QUINTIC) -> tuple[ProfileCurve, Floats]:
+    """The spline through contacts (A, 2) over their chord length, and their places (A,)."""
+    place = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+    return ProfileCurve(make_interp_spline(place, points, k=degree)), place

@@ -1,0 +1,283 @@
+"""Can any profile give the law? Closed forms only, before any profile is sought.
+
+Each limit but the stress, which is an estimate, is necessary: a case that fails one has no design.
+A case that passes all may still have none, because the profile may fold back or be undercut.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springcad.errors import InfeasibleError
+from springcad.kinds.knobs import Knob, remedies
+from springcad.kinds.roller_cam.interpolation import ROUND_OFF
+from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
+from springcad.kinds.roller_cam.law import Law
+from springcad.kinds.roller_cam.part import roller_contact
+from springcad.kinds.roller_cam.tip import linear_tip
+from springcad.mechanics.section import SHEAR_CORRECTION, area
+from springcad.result import Check, check
+
+Floats = NDArray[np.float64]
+
+ANGLES = 200
+"""Angles at which the law is looked at."""
+ESTIMATE_ERROR = 0.03
+"""Share by which the estimate of the stress may be wrong; measured: 0.9 to 1.4 %, too high."""
+_CONTACTS = np.geomspace(1e-6, 0.5 * math.pi, 300)
+"""Contact angles round the roller between which the one that holds the energy is interpolated."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One group to be judged, SI.
+
+    Attributes:
+        law: of the group.
+        deflection: largest angle; may be below that of the law.
+        joint: one element and its roller; of a cantilever that is to be sized, the stiffest.
+        is_sized: whether the cantilever is to be sized.
+        least_height: of the cantilever.
+        design_stress, yield_strength: allowed in bending, and of the material.
+        clearance: least gap between roller and cantilever.
+        torque_share: by which all torques of the law are multiplied.
+    """
+
+    law: Law
+    deflection: float
+    joint: Joint
+    is_sized: bool
+    least_height: float
+    design_stress: float
+    yield_strength: float
+    clearance: float
+    torque_share: float = 1.0
+
+    @property
+    def wanted(self) -> Law:
+        """The law with its deflection and its torques as they are in this case."""
+        law, share = self.law, self.torque_share
+        return replace(
+            law,
+            deflection=self.deflection,
+            torque=lambda angle: share * law.torque(angle),
+            energy=lambda angle: share * law.energy(angle),
+            stiffness=lambda angle: share * law.stiffness(angle),
+            points=law.points * [1.0, share],
+        )
+
+    @property
+    def angle(self) -> Floats:
+        """Angles beyond the dead zone (ANGLES,)."""
+        dead = self.law.dead_zone
+        return dead + (self.deflection - dead) * np.arange(1, ANGLES + 1) / ANGLES
+
+
+def tip_stiffness(cantilever: Cantilever) -> float:
+    """Force across the tip per deflection, by bending and shear (N/m).
+
+    001 counts bending only, which is 3 % stiffer for its cantilever.
+    """
+    sheared = SHEAR_CORRECTION * cantilever.shear_modulus
+    section = float(area(cantilever.width, 0.5 * cantilever.height))
+    return 1.0 / (1.0 / cantilever.tip_stiffness + cantilever.length / (sheared * section))
+
+
+def required_arm(torque: Floats, energy: Floats, stiffness: float) -> Floats:
+    """Least arm with which a tip of this stiffness gives the torque holding the energy (m).
+
+    With the force F = τ/arm it holds at least F²/(2k), when the roller is right over the tip.
+    Nan or inf for an energy too small to count.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return torque / np.sqrt(2.0 * stiffness * energy)
+
+
+def feasibility_checks(case: Case) -> tuple[Check, ...]:
+    """All closed-form checks; those that fail carry remedies that make every one of them pass."""
+    checks = _checks(case)
+    if not any(claim.status == "fail" for claim in checks):
+        return checks
+    advice = "; or ".join(case_remedies(case))
+    return tuple(
+        replace(claim, remedy=advice) if claim.status == "fail" else claim for claim in checks
+    )
+
+
+def require_feasible(case: Case) -> tuple[Check, ...]:
+    """The checks of a feasible case; InfeasibleError with the first failing one otherwise."""
+    checks = _checks(case)
+    for claim in checks:
+        if claim.status == "fail":
+            words = f"{claim.name} ({claim.source})"
+            raise InfeasibleError(words, claim.value, claim.limit, claim.unit, case_remedies(case))
+    return checks
+
+
+def failures(case: Case) -> tuple[str, ...]:
+    """Names of the checks that fail, without the numbers in them; for use in searches."""
+    return tuple(claim.name.partition(",")[0] for claim in _checks(case) if claim.status == "fail")
+
+
+def _checks(case: Case) -> tuple[Check, ...]:
+    """Every claim, without remedies; in this order the first failing one is reported."""
+    wanted, angle = case.wanted, case.angle
+    if not case.deflection > wanted.dead_zone:
+        return (
+            check("deflection, beyond the dead zone", case.deflection, ">=", wanted.dead_zone,
+                  "rad", source="the law begins at the end of the dead zone"),
+        )  # fmt: skip
+    torque, stiffness = wanted.torque(angle), wanted.stiffness(angle)
+    law = (*_material(case), *_law(angle, torque, stiffness))
+    if any(claim.status == "fail" for claim in law):
+        return law
+    energy = wanted.energy(angle)
+    held = (
+        *_energy(case, angle, torque, energy),
+        *_slope(case, float(wanted.stiffness(np.array([wanted.dead_zone]))[0])),
+    )
+    if all(claim.status == "pass" for claim in held):
+        held += _stress(case, float(torque[-1]), float(energy[-1]))
+    return (*law, *held, *_clearance(case))
+
+
+def _material(case: Case) -> tuple[Check, ...]:
+    return (
+        check("design stress against yield", case.design_stress, "<=", case.yield_strength, "Pa",
+              source="material data"),
+    )  # fmt: skip
+
+
+def _law(angle: Floats, torque: Floats, stiffness: Floats) -> tuple[Check, ...]:
+    """Torque beyond the dead zone, and no fall of it: the contact would have to run back."""
+    least, softest = int(np.argmin(torque)), int(np.argmin(stiffness))
+    smallest = float(stiffness[softest])
+    if abs(smallest) < ROUND_OFF * torque[-1] / (angle[-1] - angle[0]):
+        smallest = 0.0
+    positive = check(
+        f"torque of the law, least at {_degrees(angle[least])}", float(torque[least]), ">=",
+        0.0, "N*m", source="no torque only in the dead zone: without a force nothing holds the "
+        "contact",
+    )  # fmt: skip
+    if positive.value <= 0.0:
+        positive = replace(positive, status="fail")
+    rising = check(
+        f"stiffness of the law, least at {_degrees(angle[softest])}", smallest, ">=", 0.0,
+        "N*m/rad", source="where the torque falls the contact would run back and cut the profile",
+    )  # fmt: skip
+    return (positive, rising)
+
+
+def _energy(case: Case, angle: Floats, torque: Floats, energy: Floats) -> tuple[Check, ...]:
+    """The cantilever must not hold more than the law has stored; the roller is right over it."""
+    stiffness = tip_stiffness(case.joint.cantilever)
+    roller = case.joint.roller
+    arm = required_arm(torque, energy, stiffness)
+    radius = (arm + roller.radius * np.sin(angle)) / np.cos(angle)
+    worst = int(np.argmax(radius))
+    reach = roller.drum_radius * math.cos(angle[worst]) - roller.radius * math.sin(angle[worst])
+    held = float(arm[worst] / reach) ** 2 * float(energy[worst])
+    return (
+        check(
+            f"drum radius, for the energy at {_degrees(angle[worst])}", roller.drum_radius, ">=",
+            float(radius[worst]), "m",
+            source=f"law stores {1e3 * energy[worst]:.4g} N*mm there; F = "
+            f"{torque[worst] / reach:.4g} N needs at least {1e3 * held:.4g} N*mm in a cantilever "
+            f"with k = {1e-3 * stiffness:.4g} N/mm",
+        ),
+    )  # fmt: skip
+
+
+def _slope(case: Case, slope: float) -> tuple[Check, ...]:
+    """No contact is stiffer than the roller right over the tip."""
+    roller, rest = case.joint.roller, case.law.dead_zone
+    reach = roller.drum_radius * math.cos(rest) - roller.radius * math.sin(rest)
+    return (
+        check(f"stiffness of the law at rest, {_degrees(rest)}", slope, "<=",
+              tip_stiffness(case.joint.cantilever) * reach**2, "N*m/rad",
+              source="k R² of the cantilever alone, the roller right over its tip"),
+    )  # fmt: skip
+
+
+def _stress(case: Case, torque: float, energy: float) -> tuple[Check, ...]:
+    """Nothing is said where sizing sees to the stress."""
+    if case.is_sized:
+        return ()
+    stress = end_stress(case.joint, case.deflection, torque, energy)
+    within = stress <= (1.0 + ESTIMATE_ERROR) * case.design_stress
+    return (
+        check(f"bending stress (estimate), at {_degrees(case.deflection)}", stress, "<=",
+              case.design_stress, "Pa", otherwise="warn" if within else "fail",
+              source=f"small rotations, rigid contact part; within {ESTIMATE_ERROR:.0%}, the "
+              "profile decides"),
+    )  # fmt: skip
+
+
+def end_stress(joint: Joint, angle: float, torque: float, energy: float) -> float:
+    """Stress at the clamp where the cantilever gives the torque holding the energy (Pa).
+
+    By small rotations; inf where no contact gives it.
+    """
+    turned = np.full_like(_CONTACTS, angle)
+    touch = roller_contact(joint.roller, turned, _CONTACTS)
+    force = torque / (touch.reach * -touch.normal[:, 1])
+    state = linear_tip(joint.cantilever)(touch.point, force[:, None] * touch.normal)
+    beyond = np.flatnonzero((state.energy >= energy) & (state.energy > 0.0))
+    last = int(beyond[-1]) if len(beyond) else -1
+    if last < 0 or last + 1 == len(_CONTACTS):
+        return math.inf
+    rows = slice(last, last + 2)
+    share = np.interp(-math.log(energy), -np.log(state.energy[rows]), [0.0, 1.0])
+    return float(state.stress[last] + share * (state.stress[last + 1] - state.stress[last]))
+
+
+def _clearance(case: Case) -> tuple[Check, ...]:
+    roller, angle = case.joint.roller, case.deflection
+    height = case.least_height if case.is_sized else case.joint.cantilever.height
+    gap = lowest_point(roller, angle) - 0.5 * height
+    return (
+        check(f"gap between roller and cantilever, at {_degrees(angle)}", gap, ">=",
+              case.clearance, "m",
+              source="y0 - R sin - r cos - h/2, the cantilever straight; smallest gap of the "
+              "process"),
+    )  # fmt: skip
+
+
+def lowest_point(roller: Roller, angle: float) -> float:
+    """Height of the turned roller's lowest point over the axis of the cantilever at rest (m)."""
+    return roller.offset - roller.drum_radius * math.sin(angle) - roller.radius * math.cos(angle)
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.4g} deg"
+
+
+KNOBS = (
+    Knob("joint.drum_radius", "mm", 1e-3, "joint.roller.drum_radius"),
+    Knob("joint.roller_offset", "mm", 1e-3, "joint.roller.offset"),
+    Knob("joint.roller_radius", "mm", 1e-3, "joint.roller.radius"),
+    Knob("target.deflection", "deg", math.pi / 180.0, "deflection", upwards=False),
+    Knob("all torques of target.law", "%", 0.01, "torque_share", upwards=False),
+    Knob("material.design_stress", "MPa", 1e6, "design_stress", upwards=False),
+)
+"""What a user may change, most telling first. Raising a stress is not a cure."""
+CANTILEVER_KNOBS = (
+    Knob("cantilever.length", "mm", 1e-3, "joint.cantilever.length"),
+    Knob("cantilever.height", "mm", 1e-3, "joint.cantilever.height"),
+    Knob("envelope.thickness", "mm", 1e-3, "joint.cantilever.width"),
+)
+"""The same for a cantilever that is given."""
+
+
+def knobs_of(case: Case) -> tuple[Knob, ...]:
+    """What may be changed in this case."""
+    return KNOBS if case.is_sized else KNOBS + CANTILEVER_KNOBS
+
+
+def case_remedies(case: Case) -> tuple[str, ...]:
+    """Changes of the spec after which every closed-form check passes, each one recomputed."""
+    return remedies(case, knobs_of(case), failures)

@@ -1,0 +1,92 @@
+"""From the validated spec to what the design starts from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from springcad.kinds.roller_cam.feasibility import Case
+from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
+from springcad.kinds.roller_cam.law import (
+    Law,
+    Rise,
+    exponential,
+    law_of,
+    polynomial,
+    stiffness_polynomial,
+    stiffness_table,
+    table,
+)
+from springcad.kinds.roller_cam.spec import Law as LawSpec
+from springcad.kinds.roller_cam.spec import RollerCamSpec
+from springcad.spec.common import CommonSpec
+
+
+def roller_spec(model: CommonSpec) -> RollerCamSpec:
+    """The model as this kind's own; TypeError for another kind's."""
+    if not isinstance(model, RollerCamSpec):
+        raise TypeError(f"not a roller-cam spec: {type(model).__name__}")
+    return model
+
+
+def group_law(spec: RollerCamSpec) -> Law:
+    """The law of one group."""
+    target = spec.target
+    rise = _rise(target.law, target.deflection - target.dead_zone)
+    if target.per == "group" or spec.groups == 1:
+        return law_of(rise, target.deflection, dead_zone=target.dead_zone)
+    rise = replace(rise, words=f"{rise.words}, shared by {spec.groups} groups")
+    share = 1.0 / spec.groups
+    return law_of(rise, target.deflection, dead_zone=target.dead_zone, share=share)
+
+
+def _rise(law: LawSpec, stroke: float) -> Rise:
+    """The law over the angle from the end of the dead zone; exactly one form of it is given."""
+    if law.exponential is not None:
+        return exponential(law.exponential.scale, law.exponential.decade)
+    if law.linear is not None:
+        return polynomial((law.linear,), stroke)
+    if law.polynomial is not None:
+        return polynomial(law.polynomial, stroke)
+    if law.table is not None:
+        return table(np.array(law.table))
+    if law.stiffness is not None and law.stiffness.table is not None:
+        return stiffness_table(np.array(law.stiffness.table))
+    if law.stiffness is not None and law.stiffness.polynomial is not None:
+        return stiffness_polynomial(law.stiffness.polynomial, stroke)
+    raise ValueError("a valid spec has a law")
+
+
+def joint_of(spec: RollerCamSpec) -> Joint:
+    """Cantilever and roller; the stiffest cantilever within the bounds where it is to be sized."""
+    material = spec.material.values
+    cantilever = Cantilever(
+        length=spec.cantilever.length[0],
+        height=spec.cantilever.height[1],
+        width=spec.envelope.thickness[1],
+        elastic_modulus=material.elastic_modulus.value,
+        poisson_ratio=material.poisson_ratio.value,
+    )
+    roller = Roller(
+        radius=spec.joint.roller_radius,
+        drum_radius=spec.joint.drum_radius,
+        offset=spec.joint.roller_offset,
+    )
+    return Joint(cantilever, roller)
+
+
+def case_of(model: CommonSpec) -> Case:
+    """The case that the closed forms judge, SI."""
+    spec = roller_spec(model)
+    law = group_law(spec)
+    return Case(
+        law=law,
+        deflection=law.deflection,
+        joint=joint_of(spec),
+        is_sized=spec.cantilever.objective is not None,
+        least_height=spec.cantilever.height[0],
+        design_stress=spec.material.design_stress,
+        yield_strength=spec.material.values.yield_strength.value,
+        clearance=spec.process.rules.min_gap,
+    )

@@ -1,0 +1,349 @@
+"""The spec of a roller cam: a cantilever whose contact part a roller on a drum presses aside.
+
+The symbols of paper 001: length l, height h and width w of the cantilever, roller radius r, drum
+radius R, offset y₀ of the roller, torque τ, deflection β. All values are SI.
+"""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from typing import Annotated, ClassVar, Literal, TypeAlias
+
+from pydantic import Field
+
+from springcad.spec.common import (
+    CommonSpec,
+    Length,
+    MaterialSpec,
+    ProcessEntry,
+    ProcessSpec,
+    Quantity,
+    TorsionalStiffness,
+    angle,
+    below_process,
+    default,
+)
+from springcad.spec.csv_columns import Column
+from springcad.spec.lists import Bounds, Coefficients
+from springcad.spec.points import CurvePoints, Point, Points
+from springcad.spec.rules import Rule, Section, rule
+from springcad.spec.units import ANGLE, LENGTH, LINEAR_STIFFNESS, STIFFNESS, TORQUE, show
+
+TEMPLATE = files(__package__).joinpath("template.yaml").read_text(encoding="utf-8")
+
+DEFLECTION = ("0.01 deg", "30 deg")
+"""Range of the deflection; the roller leaves the plane of the profile by R (1 - cos β)."""
+
+MOST_DECADES = 12
+LEAST_STEP = 1e-7
+"""Between the angles of two points, rad."""
+
+
+def _torque_fault(before: Point | None, point: Point) -> str | None:
+    torque = point[1]
+    if before is None:
+        if torque == 0.0:
+            return None
+        return f"torque at 0 is {show(torque, TORQUE)}; must be 0: a mirrored pair has no preload"
+    if torque == 0.0:
+        return f"no torque up to {show(point[0], ANGLE)}: give that as target.dead_zone instead"
+    if torque < before[1]:
+        return f"torque falls; it must not be less than the {show(before[1], TORQUE)} before it"
+    return None
+
+
+def _stiffness_fault(_: Point | None, point: Point) -> str | None:
+    return None if point[1] >= 0.0 else "stiffness must not be negative"
+
+
+_ANGLE = Column("angle", Quantity(ANGLE, "0 deg", "60 deg"))
+_TORQUE = Column("torque", Quantity(TORQUE, "0 N*m", "1000000 N*m"))
+_STIFFNESS = Column("stiffness", Quantity(STIFFNESS, "0 N*m/rad", "1000000000 N*m/rad"))
+
+TorquePoints: TypeAlias = Annotated[Points, CurvePoints(_ANGLE, _TORQUE, LEAST_STEP, _torque_fault)]
+StiffnessPoints: TypeAlias = Annotated[
+    Points, CurvePoints(_ANGLE, _STIFFNESS, LEAST_STEP, _stiffness_fault)
+]
+LengthBounds: TypeAlias = Annotated[
+    tuple[float, float], Bounds(Quantity(LENGTH, "0.01 mm", "10 m"))
+]
+
+
+class Exponential(Section):
+    """Torque scale (10^(angle/decade) - 1), the law of paper 001."""
+
+    scale: Annotated[float, Quantity(TORQUE, "0.000000001 N*m", "1000000 N*m")]
+    """Factor of the law, in N*m: what the torque and it together have grown from."""
+    decade: Annotated[float, angle("0.001 deg", "1000 deg")]
+    """Angle in which torque plus scale grows tenfold, in deg."""
+
+
+class Stiffness(Section):
+    """Stiffness against angle, integrated to the torque: one of table and polynomial."""
+
+    table: StiffnessPoints | None = None
+    """CSV file (angle, stiffness) beside the spec, or pairs [angle, stiffness]."""
+    polynomial: Annotated[tuple[float, ...], Coefficients(1)] | None = None
+    """Coefficients of 1, angle, angle^2, ...: N*m/rad, N*m/rad^2, ... or per deg, deg^2, ..."""
+
+
+class Law(Section):
+    """Torque over the angle from the end of the dead zone: exactly one of these."""
+
+    exponential: Exponential | None = None
+    """Torque scale (10^(angle/decade) - 1), the law of paper 001."""
+    linear: TorsionalStiffness | None = None
+    """A constant stiffness, in N*m/rad or N*m/deg."""
+    polynomial: Annotated[tuple[float, ...], Coefficients(1)] | None = None
+    """Coefficients of angle, angle^2, ...: N*m/rad, N*m/rad^2, ... or per deg, deg^2, ..."""
+    table: TorquePoints | None = None
+    """CSV file (angle, torque) beside the spec, or pairs [angle, torque]; from 0, never falling."""
+    stiffness: Stiffness | None = None
+    """Stiffness against angle, integrated to the torque."""
+
+
+class Target(Section):
+    """What the joint is to do, in both directions alike."""
+
+    law: Law
+    """Torque over the angle from the end of the dead zone."""
+    per: Literal["group", "joint"] = "joint"
+    """Whose torque the law is: that of one group, or that of all groups together."""
+    deflection: Annotated[float, angle(*DEFLECTION)]
+    """Largest deflection in normal use, one way from rest, dead zone included, in deg."""
+    dead_zone: Annotated[float, angle("0 deg", "30 deg")] = default("0 deg")
+    """Angle from rest up to which there is no torque, in deg; the law begins at its end."""
+
+
+class Drum(Section):
+    """The turning drum and the roller on it."""
+
+    drum_radius: Length
+    """Radius of the circle on which the roller's centre moves, in mm."""
+    roller_radius: Length
+    """Radius of the roller, in mm."""
+    roller_offset: Length
+    """Height of the roller's centre at rest over the axis of the cantilever, in mm."""
+
+
+class Envelope(Section):
+    """The space that the element may take."""
+
+    thickness: LengthBounds
+    """Thickness of the sheet (width of the cantilever) in mm, or bounds [low, high] for sizing."""
+
+
+class CantileverSpec(Section):
+    """The elastic part: given, or sized between bounds."""
+
+    length: LengthBounds
+    """From the mount to the contact part in mm, or bounds [low, high] for sizing."""
+    height: LengthBounds
+    """In the plane of bending, in mm, or bounds [low, high] for sizing."""
+    objective: Literal["max_stiffness", "min_volume", "min_stress", "target_stiffness"] | None = (
+        None
+    )
+    """What sizing between the bounds is for; target_stiffness: given stiffness, least volume."""
+    stiffness: Annotated[float, Quantity(LINEAR_STIFFNESS, "0.1 N/m", "1000000 N/mm")] | None = None
+    """Stiffness of the tip in bending, in N/mm, to be met by target_stiffness or min_stress."""
+    root_fillet: Length = default("1 mm")
+    """Radius between mount and cantilever, in mm."""
+
+
+class ContactPart(Section):
+    """What carries the profile at the tip of the cantilever."""
+
+    thickness: Length = default("3 mm")
+    """Material behind the upper end of the profile, along the cantilever, in mm."""
+
+
+class Mount(Section):
+    """The block by which the element is held."""
+
+    length: Length = default("10 mm")
+    """Along the cantilever, in mm."""
+    height: Length = default("20 mm")
+    """Across the cantilever, in mm."""
+    holes: Annotated[int, Field(ge=0, le=20)] = 2
+    """Number of holes in a row across the cantilever."""
+    hole_diameter: Length = default("4 mm")
+    """Diameter of the holes, in mm."""
+
+
+class Stepwise(Section):
+    """The iteration of paper 001."""
+
+    steps: Annotated[int, Field(ge=5, le=5000)] = 190
+    """Number of equal steps of the angle."""
+    form: Literal["printed", "sound"] = "sound"
+    """As printed (eight unknowns, backward difference), or one unknown and the trapezoid rule."""
+
+
+@rule("target.law")
+def _one_law(law: Law) -> str | None:
+    return _exactly_one(law)
+
+
+@rule("target.law.stiffness")
+def _one_stiffness(stiffness: Stiffness | None) -> str | None:
+    return None if stiffness is None else _exactly_one(stiffness)
+
+
+def _exactly_one(section: Section) -> str | None:
+    known = list(type(section).model_fields)
+    given = [name for name in known if getattr(section, name) is not None]
+    if len(given) == 1:
+        return None
+    return f"give one of {', '.join(known)}; {' and '.join(given) or 'none'} given"
+
+
+@rule("target.law.exponential.decade", "target.deflection")
+def _decades(decade: float, deflection: float) -> str | None:
+    if deflection <= MOST_DECADES * decade:
+        return None
+    return f"the torque grows by more than {MOST_DECADES} decades up to {show(deflection, ANGLE)}"
+
+
+@rule("target.dead_zone", "target.deflection")
+def _dead_zone(dead_zone: float, deflection: float) -> str | None:
+    return None if dead_zone < deflection else f"must be less than {show(deflection, ANGLE)}"
+
+
+@rule("target.law.table", "target.deflection", "target.dead_zone")
+def _torque_table_reaches(points: Points | None, deflection: float, dead: float) -> str | None:
+    return _reaches(points, deflection - dead)
+
+
+@rule("target.law.stiffness.table", "target.deflection", "target.dead_zone")
+def _stiffness_table_reaches(points: Points | None, deflection: float, dead: float) -> str | None:
+    return _reaches(points, deflection - dead)
+
+
+def _reaches(points: Points | None, stroke: float) -> str | None:
+    if points is None or points[-1][0] >= stroke * (1.0 - 1e-9):
+        return None
+    ends, wanted = show(points[-1][0], ANGLE), show(stroke, ANGLE)
+    return f"ends at {ends}, but must reach the deflection less the dead zone, {wanted}"
+
+
+@rule("joint.roller_radius", "joint.drum_radius")
+def _roller(roller: float, drum: float) -> str | None:
+    return None if roller < drum else f"must be less than drum_radius, {show(drum, LENGTH)}"
+
+
+@rule("cantilever", "envelope.thickness")
+def _sizing(cantilever: CantileverSpec, thickness: tuple[float, float]) -> str | None:
+    bounds = (cantilever.length, cantilever.height, thickness)
+    is_free = any(low < high for low, high in bounds)
+    if is_free and cantilever.objective is None:
+        return "bounds need an objective: what to size the cantilever for"
+    if cantilever.objective is not None and not is_free:
+        return "objective has nothing to size; give length, height or thickness as [low, high]"
+    return None
+
+
+@rule("cantilever.stiffness", "cantilever.objective")
+def _stiffness_sized(stiffness: float | None, objective: str | None) -> str | None:
+    if stiffness is None and objective == "target_stiffness":
+        return "missing: objective target_stiffness needs it"
+    if stiffness is not None and objective not in ("target_stiffness", "min_stress"):
+        return "has a meaning with objective target_stiffness or min_stress only"
+    return None
+
+
+@rule("cantilever.height", "process")
+def _height(height: tuple[float, float], process: ProcessSpec) -> str | None:
+    return below_process("a web", height[0], process.rules.min_web, process)
+
+
+@rule("contact_part.thickness", "process")
+def _contact_part(thickness: float, process: ProcessSpec) -> str | None:
+    return below_process("a web", thickness, process.rules.min_web, process)
+
+
+@rule("cantilever.root_fillet", "process")
+def _fillet(fillet: float, process: ProcessSpec) -> str | None:
+    return below_process("an inside radius", fillet, process.rules.min_inside_radius, process)
+
+
+@rule("mount.hole_diameter", "mount.holes", "mount.length", "mount.height", "process")
+def _holes(
+    diameter: float, count: int, length: float, height: float, process: ProcessSpec
+) -> str | None:
+    if not count:
+        return None
+    rules = process.rules
+    if 0.5 * diameter < rules.min_inside_radius * (1.0 - 1e-9):
+        return below_process("a radius", 0.5 * diameter, rules.min_inside_radius, process)
+    web = min(0.5 * (length - diameter), (height - count * diameter) / (2.0 * count))
+    return below_process("a web beside the holes", web, rules.min_web, process)
+
+
+@rule("stepwise", "method")
+def _stepwise(stepwise: Stepwise, method: str) -> str | None:
+    if method == "stepwise" or not stepwise.model_fields_set:
+        return None
+    return "has a meaning with method: stepwise only"
+
+
+@rule("compensation", "method")
+def _stepped_compensation(compensation: str, method: str) -> str | None:
+    if method == "stepwise" and compensation == "compliance":
+        return "the iteration takes the contact part as rigid; use shift, multiplicative or none"
+    return None
+
+
+class RollerCamSpec(CommonSpec):
+    """A roller cam: a cantilever with a contact profile for a given torque law (paper 001)."""
+
+    RULES: ClassVar[tuple[Rule, ...]] = (
+        _one_law,
+        _one_stiffness,
+        _decades,
+        _dead_zone,
+        _torque_table_reaches,
+        _stiffness_table_reaches,
+        _roller,
+        _sizing,
+        _stiffness_sized,
+        _height,
+        _contact_part,
+        _fillet,
+        _holes,
+        _stepwise,
+        _stepped_compensation,
+    )
+
+    kind: Literal["roller-cam"]
+    """Kind of element to design."""
+    target: Target
+    """What the joint is to do, in both directions alike."""
+    groups: Annotated[int, Field(ge=1, le=100)] = 1
+    """Number of groups that share the torque; a group is an element for each direction."""
+    joint: Drum
+    """The turning drum and the roller on it."""
+    envelope: Envelope
+    """The space that the element may take."""
+    cantilever: CantileverSpec
+    """The elastic part: given, or sized between bounds."""
+    contact_part: ContactPart = Field(default_factory=ContactPart)
+    """What carries the profile at the tip of the cantilever."""
+    mount: Mount = Field(default_factory=Mount)
+    """The block by which the element is held."""
+    material: MaterialSpec
+    """What the element is made of, and the stress it is designed for."""
+    process: ProcessEntry
+    """Cutting process: its name, or a section with name and shop rules of your own."""
+    friction: Annotated[float, Field(ge=0.0, le=0.6)] = 0.0
+    """Tangential over normal force on the roller, for the hysteresis; a bare number."""
+    method: Literal["energy", "stepwise"] = "energy"
+    """How the profile is found: from the energy balance, or by the iteration of paper 001."""
+    stepwise: Stepwise = Field(default_factory=Stepwise)
+    """The iteration of paper 001; for method stepwise only."""
+    compensation: Literal["none", "shift", "multiplicative", "compliance"] = "compliance"
+    """How the profile allows for the bending of the contact part; shift is that of paper 001."""
+    torque_tolerance: Annotated[float, Field(ge=0.0001, le=0.1)] = 0.002
+    """Largest share of the full torque by which the drawing's arcs may change the torque."""
+
+
+SPEC_MODEL = RollerCamSpec

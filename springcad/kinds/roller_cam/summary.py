@@ -1,0 +1,258 @@
+"""A roller cam as a result: numbers, curves, part, and what was taken for granted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from springcad.kinds.roller_cam.checks import joint_checks, pressure, torque_errors
+from springcad.kinds.roller_cam.made import MadeJoint
+from springcad.result import Dimension, Outcome, Part, Plot, Result, Series, Value
+from springcad.spec.source import Spec
+
+
+def summarise(spec: Spec, made: MadeJoint) -> Result:
+    """Everything that the reports and files show."""
+    return Result(
+        kind=spec.kind,
+        name=spec.name,
+        spec=spec.raw,
+        design=_design(made),
+        response=_response(made),
+        checks=joint_checks(made),
+        outcomes=tuple(_outcomes(made)),
+        parts=(_part(made),),
+        dimensions=_dimensions(made),
+        plots=_plots(made),
+        assumptions=tuple(_assumptions(made)),
+        advice=tuple(_advice(made)),
+        provenance=_provenance(spec, made),
+    )
+
+
+def _design(made: MadeJoint) -> dict[str, Value]:
+    beam, roller, size = made.joint.cantilever, made.joint.roller, made.geometry.dimensions
+    return {
+        "groups": made.spec.groups,
+        "law": made.law.words,
+        "elastic_modulus_Pa": beam.elastic_modulus,
+        "poisson_ratio": beam.poisson_ratio,
+        "thickness_m": beam.width,
+        "mass_kg": made.mass,
+        "cantilever_length_m": beam.length,
+        "cantilever_height_m": beam.height,
+        "tip_stiffness_N_per_m": beam.tip_stiffness,
+        "drum_radius_m": roller.drum_radius,
+        "roller_radius_m": roller.radius,
+        "roller_offset_m": roller.offset,
+        "dead_zone_rad": made.law.dead_zone,
+        "contact_part": {
+            "thickness_m": size.thickness,
+            "foot_fillet_radius_m": size.foot_fillet,
+            "rounding_radius_m": size.rounding,
+            "gap_to_mirrored_m": size.gap,
+        },
+        "mount": {
+            "length_m": size.mount.length,
+            "height_m": size.mount.height,
+            "hole_diameter_m": size.mount.hole_diameter,
+            "hole_count": size.mount.hole_count,
+            "held": size.mount.mounting,
+        },
+        "root_fillet_radius_m": size.root_fillet,
+        "method": made.spec.method,
+        "compensation": made.spec.compensation,
+        "torque_errors_of_updates": list(made.compensated.errors),
+        "stepwise_distance_m": made.stepwise_distance,
+        "drawing_tolerance_m": made.drawn.tolerance,
+        "drawing_torque_change": made.drawn.torque_change,
+        "profile": {
+            "x_m": made.geometry.points[:, 0],
+            "y_m": made.geometry.points[:, 1],
+            "tangent_x": made.geometry.tangents[:, 0],
+            "tangent_y": made.geometry.tangents[:, 1],
+        },
+    }
+
+
+def _response(made: MadeJoint) -> dict[str, Value]:
+    stroke, groups = made.stroke, made.spec.groups
+    relative, absolute = torque_errors(made)
+    full = groups * float(stroke.torque[-1])
+    return {
+        "stiffness_Nm_per_rad": full / float(stroke.angle[-1]),
+        "max_deflection_rad": float(stroke.angle[-1]),
+        "max_torque_Nm": full,
+        "energy_J": groups * float(stroke.energy[-1]),
+        "torque_error": absolute,
+        "relative_torque_error": relative,
+        "peak_nominal_stress_Pa": float(np.max(stroke.tip.stress)),
+        "peak_contact_pressure_Pa": float(np.max(pressure(made))),
+        "peak_roller_force_N": float(np.max(stroke.normal_force)),
+        "largest_contact_angle_rad": float(np.nanmax(stroke.gamma)),
+        "largest_tip_rotation_rad": float(np.max(np.abs(stroke.tip.rotation))),
+        "angle_rad": stroke.angle,
+        "group_torque_Nm": stroke.torque,
+        "law_torque_Nm": made.law.torque(stroke.angle),
+        "group_energy_J": stroke.energy,
+        "roller_force_N": stroke.normal_force,
+        "nominal_stress_Pa": stroke.tip.stress,
+        "contact_pressure_Pa": pressure(made),
+        "contact_angle_rad": stroke.gamma,
+        "offset_sensitivity_N": made.sensitivity,
+        **_hysteresis(made),
+    }
+
+
+def _hysteresis(made: MadeJoint) -> dict[str, Value]:
+    """Loading and unloading with the friction of the spec; nothing without."""
+    if made.friction is None:
+        return {}
+    return {
+        "hysteresis_loss_J": made.spec.groups * made.friction.loss,
+        "hysteresis_share": made.friction.loss_share,
+        "friction_angle_rad": made.friction.angle,
+        "loading_torque_Nm": made.friction.loading,
+        "unloading_torque_Nm": made.friction.unloading,
+    }
+
+
+def _outcomes(made: MadeJoint) -> Iterator[Outcome]:
+    stroke, groups, law = made.stroke, made.spec.groups, made.law
+    relative, absolute = torque_errors(made)
+    full = groups * float(law.torque(stroke.angle[-1:])[0])
+    yield Outcome("deflection, each way", float(stroke.angle[-1]), "rad", law.deflection)
+    yield Outcome(
+        "torque at the deflection", groups * float(stroke.torque[-1]), "N*m", full,
+        f"of all groups ({groups})",
+    )  # fmt: skip
+    yield Outcome("energy", groups * float(stroke.energy[-1]), "J",
+                  groups * float(law.energy(stroke.angle[-1:])[0]))  # fmt: skip
+    yield Outcome("torque error, over the full torque", absolute, "1", None,
+                  "forward analysis of the drawn profile")  # fmt: skip
+    yield Outcome("torque error, relative", relative, "1", None,
+                  "largest from 2.6 % of the stroke on")  # fmt: skip
+    yield Outcome("nominal stress at the clamp", float(np.max(stroke.tip.stress)), "Pa",
+                  made.spec.material.design_stress, "bending and axial, no notch")  # fmt: skip
+    yield Outcome("contact pressure", float(np.max(pressure(made))), "Pa", None, "Hertz")
+    yield Outcome("force of the roller", float(np.max(stroke.normal_force)), "N")
+    yield Outcome("tip stiffness of the cantilever", made.joint.cantilever.tip_stiffness, "N/m")
+    yield Outcome("mass of an element", made.mass, "kg")
+    if made.stepwise_distance is not None:
+        settings = made.spec.stepwise
+        form = settings.form if made.spec.method == "stepwise" else "sound form, rigid contact part"
+        yield Outcome(
+            "profile by steps against that by energy", made.stepwise_distance, "m", None,
+            f"001, section 3.2, {form}, {settings.steps} steps; largest distance",
+        )  # fmt: skip
+    if made.friction is not None:
+        yield Outcome("energy lost in a cycle", made.friction.loss_share, "1", None,
+                      f"of the work of loading, friction {made.spec.friction:g}")  # fmt: skip
+
+
+def _part(made: MadeJoint) -> Part:
+    title = made.spec.material.values.title
+    width = made.joint.cantilever.width
+    return Part("", "element", made.element, width, title, made.drawn.tolerance)
+
+
+def _dimensions(made: MadeJoint) -> tuple[Dimension, ...]:
+    beam, top = made.joint.cantilever, made.geometry.top
+    half = 0.5 * beam.height
+    return (
+        Dimension("", "cantilever length", "linear", (-beam.length, half), (0.0, half)),
+        Dimension(
+            "", "cantilever height", "linear",
+            (-0.5 * beam.length, -half), (-0.5 * beam.length, half),
+        ),
+        Dimension(
+            "", "contact part", "linear",
+            (made.geometry.back - made.geometry.dimensions.thickness, top),
+            (made.geometry.back, top),
+        ),
+    )  # fmt: skip
+
+
+def _plots(made: MadeJoint) -> tuple[Plot, ...]:
+    stroke, law = made.stroke, made.law
+    friction = made.friction
+    loops = () if friction is None else (
+        Series("loading", friction.angle, friction.loading),
+        Series("unloading", friction.angle, friction.unloading),
+    )  # fmt: skip
+    wanted = law.torque(stroke.angle)
+    return (
+        Plot("Torque of a group", "angle", "rad", "torque", "N*m",
+             (Series("drawn profile", stroke.angle, stroke.torque),
+              Series("law", stroke.angle, wanted, dashed=True), *loops)),
+        Plot("Torque error", "angle", "rad", "error over the full torque", "1",
+             (Series("drawn profile", stroke.angle, (stroke.torque - wanted) / wanted[-1]),)),
+        Plot("Stress at the clamp", "angle", "rad", "stress", "Pa",
+             (Series("nominal", stroke.angle, stroke.tip.stress),),
+             limit=made.spec.material.design_stress),
+        Plot("Contact pressure", "angle", "rad", "pressure", "Pa",
+             (Series("Hertz", stroke.angle, pressure(made)),)),
+        Plot("Torque per outward offset of the profile", "angle", "rad", "torque per length", "N",
+             (Series("sensitivity", stroke.angle, made.sensitivity),)),
+    )  # fmt: skip
+
+
+def _assumptions(made: MadeJoint) -> Iterator[str]:
+    yield (
+        "The cantilever is a beam with large deflections and shear, clamped at the mount's face; "
+        "the contact part's compliance is from linear plane-stress finite elements of the whole "
+        "element, the mount held between plates that end with its face."
+    )
+    yield "The roller and its drum are rigid, the roller of the element's material; no play."
+    yield (
+        "Both directions are alike: a mirrored element for each, which the report does not repeat. "
+        "The mirrored element must not be touched by this one; its clearance is that of the gap."
+    )
+    yield (
+        "Contact is frictionless."
+        if made.friction is None
+        else "Loading and unloading are with friction on a rigid contact part; all else is without."
+    )
+    yield (
+        f"The law: {made.law.words}. Near rest the torque is small and hangs on micrometres: 1 um "
+        f"of profile offset is {1e-6 * float(np.max(made.sensitivity)):.3g} N*m."
+    )
+    yield (
+        "The nominal stress knows no notch: that of the root fillet is in the second opinion. "
+        "Fatigue life, surface and edge quality are not checked."
+    )
+    yield "Drum radius, roller and their offset are as given; wear and bearing are not checked."
+
+
+def _advice(made: MadeJoint) -> Iterator[str]:
+    errors = made.compensated.errors
+    if len(errors) > 1:
+        yield (
+            f"A profile for a rigid contact part would miss the law by up to {errors[0]:.1%} "
+            f"(relative, from 2.6 % of the stroke on); {len(errors) - 1} updates bring it to "
+            f"{errors[-1]:.2%}."
+        )
+    turned = math.degrees(float(np.max(np.abs(made.stroke.tip.rotation))))
+    yield f"The tip turns by up to {turned:.2f} deg."
+
+
+def _provenance(spec: Spec, made: MadeJoint) -> Mapping[str, Value]:
+    material = made.spec.material.values
+    return {
+        "spec_sha256": spec.sha256,
+        "material": {
+            key: {"value": value.value, "source": value.source}
+            for key, value in (
+                ("elastic_modulus_Pa", material.elastic_modulus),
+                ("poisson_ratio", material.poisson_ratio),
+                ("density", material.density),
+                ("yield_strength_Pa", material.yield_strength),
+            )
+        },
+        "process": {
+            "name": made.spec.process.name,
+            "source": made.spec.process.rules.source,
+        },
+    }
