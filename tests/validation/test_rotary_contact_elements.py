@@ -99,6 +99,29 @@ def test_ten_times_the_contact_penalty_changes_the_torque_by_less_than_a_thousan
     np.testing.assert_allclose(results[1], results[0], rtol=1e-3)
 
 
+@pytest.mark.slow
+def test_elements_with_friction_load_and_unload_as_the_beam_does() -> None:
+    """S1 with a coefficient of 0.2, to the full deflection and back: both curves within 1 %."""
+    spring = written_spring(written_of("S1"))
+    sector = sector_contact(spring, 1)
+    assert sector.model.contact is not None
+    rough = replace(sector.model.contact, friction=0.2)
+    sector = replace(sector, model=replace(sector.model, contact=rough))
+    up = np.linspace(0.125, 1.0, 8) * spring.deflection
+    turns = turn_through(sector, [*up, *up[-2:2:-1]])
+    assert len(turns) == 12
+    found = np.array([torque(sector, turn) for turn in turns])
+    loop = spring_of("S1", "camshaft.friction=0.2").strokes[0].friction
+    assert loop is not None
+    angles = np.array([turn.angle for turn in turns])
+    np.testing.assert_allclose(
+        found[:8], np.interp(angles[:8], loop.angle, loop.loading), rtol=0.01
+    )
+    np.testing.assert_allclose(
+        found[8:], np.interp(angles[8:], loop.angle, loop.unloading), rtol=0.01
+    )
+
+
 @pytest.mark.parametrize("direction", [1, -1])
 def test_the_drawn_flank_is_the_designed_one_wherever_the_contour_begins(direction: int) -> None:
     spring, camshaft = spring_of("S2"), written_spring(written_of("S2")).camshaft

@@ -147,6 +147,7 @@ def _within_limits(task: SizingTask, beam: Beam) -> Solution:
     """The cantilever with the least stress; InfeasibleError if none is within all limits."""
     _require_room(task)
     _require_stiffness(task)
+    _require_energy(task, beam)
     return _require_stress(task, beam)
 
 
@@ -172,11 +173,17 @@ def _require_stiffness(task: SizingTask) -> None:
     raise InfeasibleError(claim, task.stiffness, nearest, "N/m")
 
 
+def _require_energy(task: SizingTask, beam: Beam) -> None:
+    error, excess = _energy_error(task, beam)
+    if excess > -ENERGY_RESERVE:
+        raise error
+
+
 def _require_stress(task: SizingTask, beam: Beam) -> Solution:
     """The cantilever with the least stress, within the design stress."""
     found = least_stress(task, beam)
     if found is None:
-        raise _too_soft(task, beam)
+        raise _energy_error(task, beam)[0]
     ratio = math.exp(found.variables[3])
     if ratio > 1.0:
         least = _sizes(task.cantilever(found.variables))
@@ -185,19 +192,20 @@ def _require_stress(task: SizingTask, beam: Beam) -> Solution:
     return found
 
 
-def _too_soft(task: SizingTask, beam: Beam) -> InfeasibleError:
+def _energy_error(task: SizingTask, beam: Beam) -> tuple[InfeasibleError, float]:
+    """What to say where the energy cannot be held, and the logarithm of by how much."""
     wanted = samples(task.law)
-    excess = loads_of(task, beam, task.typical, wanted).excess
+    excess = loads_of(task, beam, task.first_to_try, wanted).excess
     worst = int(np.argmax(excess))
-    stored = float(wanted.energy[worst])
+    stored, factor = float(wanted.energy[worst]), math.exp(excess[worst])
     which = "the stiffest cantilever within the bounds"
     if task.stiffness is not None:
         which = f"a cantilever of {1e-3 * task.stiffness:.4g} N/mm"
     claim = (
         f"energy that the law stores up to {math.degrees(wanted.angle[worst]):.4g} deg; giving its "
-        f"torque there {which} holds more: too soft by a factor of {np.exp(excess[worst]):.4f}"
+        f"torque there {which} holds more: it is too soft by a factor of {factor:.4f}"
     )
-    return InfeasibleError(claim, stored, stored * math.exp(excess[worst]), "J")
+    return InfeasibleError(claim, stored, stored * factor, "J"), float(excess[worst])
 
 
 def _active(task: SizingTask, beam: Beam, cantilever: Cantilever, stress: float) -> Iterator[str]:

@@ -48,8 +48,8 @@ _FEASIBLE = 1e-7
 """Largest violation of a limit, of its logarithm."""
 _AS_GOOD = 1e-6
 _AT_BOUND = 1e-8
-_TOLERANCE = 1e-10
-_ITERATIONS = 40
+_TOLERANCE = 1e-8
+_ITERATIONS = 25
 _STEP = 1e-5
 _INTERVALS = 12
 _NO_STATE = 5.0
@@ -104,19 +104,29 @@ class SizingTask:
     @property
     def stiffness_range(self) -> tuple[float, float]:
         """Tip stiffness of the softest and of the stiffest cantilever within the bounds (N/m)."""
-        low, high = self.bounds
-        softest, stiffest = (self.cantilever(sizes) for sizes in _softest_stiffest(low, high))
+        softest, _, stiffest = (self.cantilever(sizes) for sizes in self._from_soft_to_stiff())
         return softest.tip_stiffness, stiffest.tip_stiffness
 
     @property
-    def typical(self) -> Cantilever:
-        """A cantilever within the bounds: one with the stiffness to be met, or the stiffest."""
-        softest, stiffest = _softest_stiffest(*self.bounds)
-        if self.stiffness is None:
-            return self.cantilever(stiffest)
-        least, most = np.log(self.stiffness_range)
-        share = (math.log(self.stiffness) - least) / (most - least)
-        return self.cantilever(softest + share * (stiffest - softest))
+    def first_to_try(self) -> Cantilever:
+        """The cantilever of the wanted stiffness, or the stiffest, that yields least in shear.
+
+        At a given stiffness in bending that is the widest. It holds the least energy while it gives
+        a torque: where it holds more than the law has stored, so do all within the bounds.
+        """
+        path = self._from_soft_to_stiff()
+        stiffness = path @ STIFFNESS[:3]
+        wanted = stiffness[-1]
+        if self.stiffness is not None:
+            wanted = math.log(self.stiffness) - _at_one(self.low)
+        return self.cantilever(np.array([np.interp(wanted, stiffness, way) for way in path.T]))
+
+    def _from_soft_to_stiff(self) -> Floats:
+        """Logarithms of the sizes: softest, the same with the largest width, stiffest (3, 3)."""
+        low, high = self.bounds
+        softest = np.array([high[0], low[1], low[2]])
+        widest = np.array([high[0], low[1], high[2]])
+        return np.stack([softest, widest, np.array([low[0], high[1], high[2]])])
 
 
 @dataclass(frozen=True)
@@ -164,7 +174,7 @@ def samples(law: Law) -> TorqueLaw:
 def least_stress(task: SizingTask, beam: Beam) -> Solution | None:
     """The cantilever with the least stress, allowed or not; None if none can follow the law."""
     low, high = task.bounds
-    starts = [np.append(sizes, _FREE) for sizes in (_sizes(task.typical), 0.5 * (low + high))]
+    starts = [np.append(sizes, _FREE) for sizes in (_sizes(task.first_to_try), 0.5 * (low + high))]
     return _search(task, beam, STRESS, (-_FREE, _FREE), starts)
 
 
@@ -175,7 +185,7 @@ def least_of(task: SizingTask, beam: Beam, objective: Floats, first: Solution) -
         first: one that is within all limits.
     """
     low, high = task.bounds
-    sizes = (first.variables[:3], _sizes(task.typical), 0.5 * (low + high))
+    sizes = (first.variables[:3], _sizes(task.first_to_try), 0.5 * (low + high))
     found = _search(task, beam, objective, (0.0, 0.0), [np.append(start, 0.0) for start in sizes])
     return found or first
 
@@ -212,9 +222,8 @@ def _problem(task: SizingTask, beam: Beam, objective: Floats) -> Problem:
     wanted = samples(task.law)
     low, high = task.bounds
     free = np.flatnonzero(low < high)
-    at_one = math.log(task.low.elastic_modulus / 4.0)
     equality = np.zeros((0, 4)) if task.stiffness is None else STIFFNESS[None]
-    offset = np.full(len(equality), math.log(task.stiffness or 1.0) - at_one)
+    offset = np.full(len(equality), math.log(task.stiffness or 1.0) - _at_one(task.low))
 
     def limits(variables: Floats) -> Floats:
         loads = loads_of(task, beam, task.cantilever(variables), wanted)
@@ -244,9 +253,9 @@ def _problem(task: SizingTask, beam: Beam, objective: Floats) -> Problem:
     return problem
 
 
-def _softest_stiffest(low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    stiff = STIFFNESS[:3] > 0.0
-    return np.where(stiff, low, high), np.where(stiff, high, low)
+def _at_one(cantilever: Cantilever) -> float:
+    """Logarithm of the tip stiffness E w h³/(4 l³) with all sizes 1 m."""
+    return math.log(cantilever.elastic_modulus / 4.0)
 
 
 def _sizes(cantilever: Cantilever) -> Floats:
