@@ -64,7 +64,7 @@ def with_remedy(remedy: str, name: str, *overrides: str) -> Case:
     return replace(case, law=replace(case, torque_share=share).wanted)
 
 
-def test_oracles_a01_a02_of_paper_001() -> None:
+def test_the_tip_stiffness_of_paper_001() -> None:
     """1418 N/mm in bending (1400 in the paper, 1.5 %), 1375.17 N/mm with shear."""
     beam = shipped("paper").joint.cantilever
     assert beam.tip_stiffness == pytest.approx(1418.094e3, rel=1e-6)
