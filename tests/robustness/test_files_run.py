@@ -121,7 +121,14 @@ def test_an_interrupt_writes_nothing_and_keeps_the_earlier_design(
     run_with_fake_kind("design", "knee.yaml")
     before = contents(tmp_path / "out")
     command = [sys.executable, str(FAKE), "design", "knee.yaml", "--set", "behaviour=slow"]
-    run = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    # What runs in the background of a script is started with SIGINT ignored, and hands that on.
+    run = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     assert run.stderr is not None
     assert run.stderr.readline() == "at work\n"
     run.send_signal(sent)
