@@ -74,12 +74,6 @@ def contact_angle_remedy(angle: float, gamma: float) -> str:
     return f"contact {where}: raise joint.drum_radius, or make the cantilever stiffer"
 
 
-def rotation_remedy(angle: float, rotation: float) -> str:
-    """For a tip that turns further than small rotations allow, rad."""
-    turned = f"{math.degrees(abs(rotation)):.3g} deg at {math.degrees(angle):.4g} deg"
-    return f"tip turns by {turned}: use method: energy, which counts large rotations"
-
-
 def interference_remedy(angle: float, depth: float) -> str:
     """For a roller that cuts into the profile away from its contact: depth in m at the angle."""
     cut = f"by {1e6 * depth:.3g} um at {math.degrees(angle):.4g} deg"
