@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from rotary_cases import spring_of, written_of
 
+from springcad.kinds.rotary_flexure import judge
 from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
 from springcad.kinds.rotary_flexure.judge import SHARES, judge_spring
 from springcad.kinds.rotary_flexure.sector_contact import (
@@ -84,6 +85,28 @@ def test_a_ring_that_is_not_the_one_of_the_report_is_found_out() -> None:
     mesh = next(claim for claim in judgement_checks(judgement) if "as drawn" in claim.name)
     assert mesh.status == "fail"
     assert mesh.value == pytest.approx(0.0005 * 31e-3, rel=0.05)
+
+
+def test_a_model_that_stops_early_fails_and_what_it_reached_is_still_compared(monkeypatch) -> None:
+    """No equilibrium beyond 10 % of the stroke: nothing is left for the pressure to compare."""
+    monkeypatch.setattr(judge, "turn_through", lambda s, asked: turn_through(s, asked[:1]))
+    judgement = judged(written_of("S1"))
+    found = {claim.name: claim.status for claim in judgement_checks(judgement)}
+    reached = [status for name, status in found.items() if "angle reached" in name]
+    assert reached == ["fail", "fail"]
+    assert found["second opinion: torque over the stroke"] == "pass"
+    assert not any("pressure" in name for name in found)
+
+
+def test_a_camshaft_that_never_touches_fails_without_a_fuss() -> None:
+    written = written_of("S1")
+    worn = tuple(
+        replace(line, points=rotated(line.points, np.asarray(-0.25)))
+        for line in written.contours["camshaft"]
+    )
+    contours = {**written.contours, "camshaft": worn}
+    judgement = judged(replace(written, contours=contours))
+    assert "fail" in {claim.status for claim in judgement_checks(judgement)}
 
 
 def test_ten_times_the_contact_penalty_changes_the_torque_by_less_than_a_thousandth() -> None:

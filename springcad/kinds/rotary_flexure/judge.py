@@ -157,11 +157,12 @@ def _comparisons(reported: Reported, strokes: Sequence[_Stroke]) -> Iterator[Com
         "gap between deformed flexures", "m", every, reported.gap, neighbour_gap, gap_tolerance,
         "outlines bent with the beam; outlines of the finite elements", relative=False,
     )  # fmt: skip
-    yield compared(
-        "contact pressure", "Pa", far, reported.contact_pressure, contact_pressure,
-        PRESSURE_TOLERANCE,
-        "from half of the stroke on; Hertz on the designed flank; a pad of elements on the drawn",
-    )  # fmt: skip
+    if far:
+        yield compared(
+            "contact pressure", "Pa", far, reported.contact_pressure, contact_pressure,
+            PRESSURE_TOLERANCE,
+            "from half of the stroke on; Hertz on the designed flank; elements on the drawn one",
+        )  # fmt: skip
 
 
 def _snapped(value: float) -> float:

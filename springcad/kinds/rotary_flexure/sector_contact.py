@@ -135,7 +135,7 @@ def neighbour_gap(sector: SectorContact, turn: Turn) -> float:
 
 def contact_pressure(sector: SectorContact, turn: Turn) -> float:
     """Peak pressure between pad and flank (Pa); infinite where the contact is at a corner, not a
-    number where the flank is hollow or so flat that there is no strip.
+    number where nothing touches or the flank is hollow or so flat that there is no strip.
 
     The elements of the sector are longer than the contact strip: they give its force and place,
     and a block of the pad, pressed there on the flank as drawn, the pressure. Both bodies are
@@ -145,6 +145,8 @@ def contact_pressure(sector: SectorContact, turn: Turn) -> float:
     assert contact is not None
     assert pair is not None
     shares = contact.pressure * pair.weights
+    if not shares.any():
+        return math.nan
     middle = np.einsum("kg,kgi->i", shares, contact.positions) / shares.sum()
     sheet = sector.spring.sheet
     modulus = contact_modulus(*(sheet.elastic_modulus, sheet.poisson_ratio) * 2)
