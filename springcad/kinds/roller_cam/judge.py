@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
-from springcad.geometry.polyline import flatten
+from springcad.kinds.judging import OUTLINE_TOLERANCE, distance_from, snapped
 from springcad.kinds.roller_cam.contact_model import (
     ElementContact,
     Press,
@@ -29,9 +28,6 @@ SHARES = (0.1, 0.25, 0.5, 0.75, 1.0)
 """Angles at which the models are compared, over the stroke from the end of the dead zone."""
 TOLERANCE = 0.005
 """Of torque and force, over the largest: near rest a micrometre is more than a per cent of them."""
-OUTLINE_TOLERANCE = 3e-6
-"""How far the profile of the mesh may lie from the drawing (m)."""
-_CHORD = 1e-8
 METHOD = "contact finite elements of the element"
 ASSUMPTIONS = (
     "The second opinion is by nonlinear plane-stress finite elements of the whole element, finer "
@@ -60,8 +56,8 @@ def judge_joint(written: WrittenDesign, progress: Progress) -> Judgement:
     figures: dict[str, Value] = {"elements": len(mesh.elements), "unknowns": mesh.unknowns}
     if presses:
         figures |= {
-            "root_fillet_stress_Pa": _snapped(root_stress(element, presses[-1])),
-            "contact_part_stress_Pa": _snapped(contact_part_stress(element, presses[-1])),
+            "root_fillet_stress_Pa": snapped(root_stress(element, presses[-1])),
+            "contact_part_stress_Pa": snapped(contact_part_stress(element, presses[-1])),
         }
     return Judgement(
         method=METHOD,
@@ -89,8 +85,8 @@ def _comparisons(
             place="angle",
             place_unit="rad",
             places=angles,
-            designed=np.array([_snapped(float(value)) for value in reported]),
-            judged=np.array([_snapped(judged(press)) for press in presses]),
+            designed=np.array([snapped(float(value)) for value in reported]),
+            judged=np.array([snapped(judged(press)) for press in presses]),
             tolerance=TOLERANCE * float(np.max(reported)),
             relative=False,
             source="beam with a yielding contact part, drawn profile; finite elements",
@@ -107,11 +103,6 @@ def _comparisons(
     )
 
 
-def _snapped(value: float) -> float:
-    """Six digits: what differs beyond them between linear algebra libraries says nothing."""
-    return float(f"{value:.5e}")
-
-
 def _no_mesh(reason: str) -> Check:
     return check(
         "second opinion: meshes of the element",
@@ -126,17 +117,13 @@ def _no_mesh(reason: str) -> Check:
 
 def _mesh_lies_on_drawing(joint: WrittenJoint, element: ElementContact) -> Check:
     """That the profile which is judged is the one that is drawn."""
-    mesh, outline = element.model.solid.mesh, flatten(joint.outline, _CHORD)
+    mesh = element.model.solid.mesh
     nodes = mesh.nodes[np.unique(mesh.edge_sets["contact"])]
     lower, upper = joint.geometry.points[[-1, 0], 1]
     nodes = nodes[(nodes[:, 1] >= lower) & (nodes[:, 1] <= upper)]  # without the roundings
-    chords = shapely.linestrings(np.stack([outline, np.roll(outline, -1, axis=0)], axis=1))
-    _, distance = shapely.STRtree(chords).query_nearest(
-        shapely.points(nodes), return_distance=True, all_matches=False
-    )
     return check(
         "second opinion: its profile against the drawing",
-        _snapped(float(distance.max())),
+        snapped(distance_from(joint.outline, nodes)),
         "<=",
         OUTLINE_TOLERANCE,
         "m",

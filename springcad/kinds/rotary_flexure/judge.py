@@ -6,10 +6,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
-from springcad.geometry.polyline import flatten
+from springcad.kinds.judging import OUTLINE_TOLERANCE, distance_from, snapped
 from springcad.kinds.rotary_flexure.sector_contact import (
     WAYS,
     SectorContact,
@@ -39,9 +38,6 @@ PRESSURE_TOLERANCE = 0.15
 PRESSURE_FROM = 0.45
 """Share of the stroke from which on pressures are compared: nearer to rest the curvature of the
 flank changes too much within the contact strip for Hertz's formula."""
-OUTLINE_TOLERANCE = 3e-6
-"""How far the mesh may lie from the ring as drawn (m): drawings follow the design within 2 um."""
-_CHORD = 1e-8
 _FREE_EDGES = ("fillet_right", "flank_right", "nose", "flank_left", "fillet_left")
 
 METHOD = "contact finite elements of one sector of the ring"
@@ -130,8 +126,8 @@ def _comparisons(reported: Reported, strokes: Sequence[_Stroke]) -> Iterator[Com
             place="angle",
             place_unit="rad",
             places=places,
-            designed=np.array([_snapped(designed(float(angle))) for angle in places]),
-            judged=np.array([_snapped(judged(sector, turn)) for sector, turn in turns]),
+            designed=np.array([snapped(designed(float(angle))) for angle in places]),
+            judged=np.array([snapped(judged(sector, turn)) for sector, turn in turns]),
             tolerance=tolerance,
             relative=relative,
             source=source,
@@ -165,11 +161,6 @@ def _comparisons(reported: Reported, strokes: Sequence[_Stroke]) -> Iterator[Com
         )  # fmt: skip
 
 
-def _snapped(value: float) -> float:
-    """Six digits: what differs beyond them between linear algebra libraries says nothing."""
-    return float(f"{value:.5e}")
-
-
 def _no_mesh(reason: str) -> Check:
     return check(
         "second opinion: meshes of a sector",
@@ -184,15 +175,11 @@ def _no_mesh(reason: str) -> Check:
 
 def _mesh_lies_on_drawing(sector: SectorContact) -> Check:
     """That the part which is judged is the one that is drawn."""
-    mesh, ring = sector.mesh, flatten(sector.spring.ring, _CHORD)
+    mesh = sector.mesh
     nodes = np.unique(np.concatenate([mesh.node_sets[name] for name in _FREE_EDGES]))
-    chords = shapely.linestrings(np.stack([ring, np.roll(ring, -1, axis=0)], axis=1))
-    _, distance = shapely.STRtree(chords).query_nearest(
-        shapely.points(mesh.nodes[nodes]), return_distance=True, all_matches=False
-    )
     return check(
         "second opinion: its mesh against the ring as drawn",
-        _snapped(float(distance.max())),
+        snapped(distance_from(sector.spring.ring, mesh.nodes[nodes])),
         "<=",
         OUTLINE_TOLERANCE,
         "m",

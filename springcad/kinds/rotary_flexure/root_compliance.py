@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from springcad.kinds.judging import snapped
 from springcad.kinds.rotary_flexure.sector_mesh import COARSE, Density, sector_mesh
 from springcad.kinds.rotary_flexure.sector_skeleton import SectorGeometry
 from springcad.mechanics.beam import PreparedBeam, follower_load
@@ -105,14 +106,9 @@ def root_model(
         for edges in ("fillet_left", "fillet_right")
     )
     return RootModel(
-        compliance=_snapped(beam.beam.root_compliance + extra / lever**2),
-        fillet_stress_factor=_snapped(largest * force / float(bent.nominal_stress[0, 0])),
+        compliance=snapped(beam.beam.root_compliance + extra / lever**2),
+        fillet_stress_factor=snapped(largest * force / float(bent.nominal_stress[0, 0])),
     )
-
-
-def _snapped(value: float) -> float:
-    """Six digits: what differs beyond them between linear algebra libraries must not spread."""
-    return float(f"{value:.5e}")
 
 
 def sector_supports(mesh: Mesh, count: int, mounting: Mounting) -> Constraints:
