@@ -58,8 +58,8 @@ from springcad.spec.source import Spec
 
 Floats = NDArray[np.float64]
 
-ANGLES = 60
-"""Angles at which the drawn profile is analysed."""
+ANGLES = 200
+"""Angles at which the drawn profile is analysed: its arcs waver, and none may be passed over."""
 FOOT_FILLET = 1e-3
 """Radius between cantilever and contact part (m), at least the smallest of the process."""
 ROUNDING = 0.05e-3
