@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.errors import InfeasibleError
+from springcad.kinds.feasible import advised, require_all
 from springcad.kinds.knobs import Knob, remedies
 from springcad.kinds.roller_cam.interpolation import ROUND_OFF
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
@@ -99,23 +99,16 @@ def required_arm(torque: Floats, energy: Floats, stiffness: float) -> Floats:
 
 def feasibility_checks(case: Case) -> tuple[Check, ...]:
     """All closed-form checks; those that fail carry remedies that make every one of them pass."""
-    checks = _checks(case)
-    if not any(claim.status == "fail" for claim in checks):
-        return checks
-    advice = "; or ".join(case_remedies(case))
-    return tuple(
-        replace(claim, remedy=advice) if claim.status == "fail" else claim for claim in checks
-    )
+    return advised(_checks(case), lambda: case_remedies(case))
 
 
 def require_feasible(case: Case) -> tuple[Check, ...]:
     """The checks of a feasible case; InfeasibleError with the first failing one otherwise."""
-    checks = _checks(case)
-    for claim in checks:
-        if claim.status == "fail":
-            words = f"{claim.name} ({claim.source})"
-            raise InfeasibleError(words, claim.value, claim.limit, claim.unit, case_remedies(case))
-    return checks
+    return require_all(
+        _checks(case),
+        lambda: case_remedies(case),
+        lambda claim: f"{claim.name} ({claim.source})",
+    )
 
 
 def failures(case: Case) -> tuple[str, ...]:

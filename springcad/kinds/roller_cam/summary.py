@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from springcad.kinds.provenance import sources
 from springcad.kinds.roller_cam.checks import joint_checks, pressure, torque_errors
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.result import Dimension, Outcome, Part, Plot, Result, Series, Value
@@ -239,20 +240,7 @@ def _advice(made: MadeJoint) -> Iterator[str]:
 
 
 def _provenance(spec: Spec, made: MadeJoint) -> Mapping[str, Value]:
-    material = made.spec.material.values
     return {
         "spec_sha256": spec.sha256,
-        "material": {
-            key: {"value": value.value, "source": value.source}
-            for key, value in (
-                ("elastic_modulus_Pa", material.elastic_modulus),
-                ("poisson_ratio", material.poisson_ratio),
-                ("density", material.density),
-                ("yield_strength_Pa", material.yield_strength),
-            )
-        },
-        "process": {
-            "name": made.spec.process.name,
-            "source": made.spec.process.rules.source,
-        },
+        **sources(made.spec.material, made.spec.process),
     }

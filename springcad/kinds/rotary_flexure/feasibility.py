@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from springcad.errors import InfeasibleError
+from springcad.kinds.feasible import advised, require_all
 from springcad.kinds.knobs import Knob, remedies
 from springcad.kinds.rotary_flexure.law import DesignLaw, LawInputs, design_law
 from springcad.kinds.rotary_flexure.room import (
@@ -79,24 +79,12 @@ def resolved_style(law: DesignLaw, style: Style) -> Literal["straight", "serpent
 
 def feasibility_checks(case: Case) -> tuple[Check, ...]:
     """All closed-form checks; those that fail carry remedies that make every one of them pass."""
-    checks = _checks(case)
-    if not any(claim.status == "fail" for claim in checks):
-        return checks
-    advice = "; or ".join(case_remedies(case))
-    return tuple(
-        replace(claim, remedy=advice) if claim.status == "fail" else claim for claim in checks
-    )
+    return advised(_checks(case), lambda: case_remedies(case))
 
 
 def require_feasible(case: Case) -> tuple[Check, ...]:
     """The checks of a feasible case; InfeasibleError with the first failing one otherwise."""
-    checks = _checks(case)
-    for claim in checks:
-        if claim.status == "fail":
-            raise InfeasibleError(
-                claim.name, claim.value, claim.limit, claim.unit, case_remedies(case)
-            )
-    return checks
+    return require_all(_checks(case), lambda: case_remedies(case), lambda claim: claim.name)
 
 
 def _checks(case: Case) -> tuple[Check, ...]:

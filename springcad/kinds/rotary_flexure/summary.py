@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from springcad.kinds.provenance import sources
 from springcad.kinds.rotary_flexure.checks import law_stress, root_fillet_stress, spring_checks
 from springcad.kinds.rotary_flexure.response import both_ways
 from springcad.kinds.rotary_flexure.room import deflection_bound
@@ -324,7 +325,7 @@ def _deflection_bound(spring: Spring) -> float:
 
 
 def _provenance(spec: Spec, spring: Spring) -> Mapping[str, Value]:
-    settings, found, material = spring.spec.optimiser, spring.found, spring.spec.material.values
+    settings, found = spring.spec.optimiser, spring.found
     return {
         "spec_sha256": spec.sha256,
         "optimiser": {
@@ -334,17 +335,5 @@ def _provenance(spec: Spec, spring: Spring) -> Mapping[str, Value]:
             "feasible_starts": found.feasible,
             "gaps_m": list(found.gaps),
         },
-        "material": {
-            key: {"value": value.value, "source": value.source}
-            for key, value in (
-                ("elastic_modulus_Pa", material.elastic_modulus),
-                ("poisson_ratio", material.poisson_ratio),
-                ("density", material.density),
-                ("yield_strength_Pa", material.yield_strength),
-            )
-        },
-        "process": {
-            "name": spring.spec.process.name,
-            "source": spring.spec.process.rules.source,
-        },
+        **sources(spring.spec.material, spring.spec.process),
     }
