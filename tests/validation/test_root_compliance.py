@@ -204,6 +204,19 @@ def test_a_large_fillet_makes_the_root_spring_negative_and_the_beam_takes_it() -
     assert stiffer < tip_compliance(beam_of(sector), sector)
 
 
+def test_a_root_is_computed_once_and_every_number_tells_it_from_others() -> None:
+    sector = straight_s1(0.17, 0.86)
+    once = root_model(beam_of(sector), sector, "bore")
+    assert root_model(beam_of(straight_s1(0.17, 0.86)), sector, "bore") is once
+    thinner = replace(sector, outer_radius=sector.outer_radius - 0.2e-3)
+    for other in (
+        root_model(beam_of(sector), sector, "dowels"),
+        root_model(beam_of(thinner), thinner, "bore"),
+        root_model(beam_of(sector), replace(sector, fillet=1.1 * sector.fillet), "bore"),
+    ):
+        assert other.compliance != once.compliance
+
+
 def test_less_support_is_softer() -> None:
     bore, dowels = (s1_model(0.17, 0.86, m).compliance for m in ("bore", "dowels"))
     assert bore < dowels

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -81,9 +82,45 @@ def root_model(
             factor within 1 % of those of a mesh eight times as fine, for fillets of 0.1 root
             thicknesses and more.
 
+    The last few roots are remembered: a sizing asks for the same one again.
+
     Raises:
         ValueError: no valid mesh, or no such fillet.
     """
+    return _root_model(_Root(beam, sector, mounting, density))
+
+
+@dataclass(frozen=True, eq=False)
+class _Root:
+    """What a root model follows from; two are equal if all their numbers are."""
+
+    beam: PreparedBeam
+    sector: SectorGeometry
+    mounting: Mounting
+    density: Density
+
+    def _numbers(self) -> tuple[object, ...]:
+        ribbon, sheet, sector = self.sector.ribbon, self.beam.beam, self.sector
+        arrays = (ribbon.edges, ribbon.curvature, ribbon.half_thickness, self.beam.curvature)
+        lengths = (sector.root_radius, sector.outer_radius, sector.fillet, sector.blend)
+        elastic = (sheet.elastic_modulus, sheet.shear_modulus, sheet.root_compliance)
+        return (
+            *(values.tobytes() for values in (*arrays, self.beam.half_thickness)),
+            *(ribbon.root_angle, sheet.thickness, sector.count, self.mounting, self.density),
+            *lengths,
+            *elastic,
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Root) and self._numbers() == other._numbers()
+
+    def __hash__(self) -> int:
+        return hash(self._numbers())
+
+
+@lru_cache(maxsize=16)
+def _root_model(root: _Root) -> RootModel:
+    beam, sector, mounting, density = root.beam, root.sector, root.mounting, root.density
     modulus = beam.beam.elastic_modulus
     poisson_ratio = 0.5 * modulus / beam.beam.shear_modulus - 1.0
     mesh = sector_mesh(sector, density)
