@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.geometry.biarc import DEFAULT_TOLERANCE
-from springcad.geometry.outline import Profile
+from springcad.geometry.outline import Contour, Profile
 
 Status = Literal["pass", "warn", "fail"]
 Scalar = float | int | str | bool | None
@@ -73,11 +73,24 @@ class Outcome:
 
 
 @dataclass(frozen=True)
+class Dimension:
+    """A dimension of a drawing: ``kind`` radius/diameter about ``start``, or start-to-end length.
+
+    Points are in metres in the frame of what it is drawn on.
+    """
+
+    label: str
+    kind: Literal["radius", "diameter", "linear"]
+    start: tuple[float, float]
+    end: tuple[float, float]
+
+
+@dataclass(frozen=True)
 class Part:
     """A part to be cut. The file is ``NAME.dxf`` for an empty ``suffix``, else ``NAME-suffix.dxf``.
 
     ``role`` says what it is in plain words (``flexure ring``, ``camshaft``); the arcs of its
-    drawing follow curves of the profile within ``tolerance``.
+    drawing follow curves of the profile within ``tolerance``; ``dimensions`` are drawn on it.
     """
 
     suffix: str
@@ -86,20 +99,28 @@ class Part:
     thickness: float
     material: str
     tolerance: float = DEFAULT_TOLERANCE
+    dimensions: tuple[Dimension, ...] = ()
 
 
 @dataclass(frozen=True)
-class Dimension:
-    """A dimension of the drawing: ``kind`` radius/diameter about ``start``, or start-to-end length.
+class Shape:
+    """Something shown in a view: a closed contour, or the open path through points (N, 2) [m].
 
-    Points are in metres in the part's own frame; ``suffix`` names the part.
+    ``role``: a part to be cut, a mate that touches it, a part or mate where it has moved to, a
+    limit that must not be crossed, or an axis.
     """
 
-    suffix: str
-    label: str
-    kind: Literal["radius", "diameter", "linear"]
-    start: tuple[float, float]
-    end: tuple[float, float]
+    line: Contour | NDArray[np.float64]
+    role: Literal["part", "mate", "moved", "limit", "axis"]
+
+
+@dataclass(frozen=True)
+class View:
+    """Parts among their mates, at true size in a frame of its own; shown, never cut."""
+
+    title: str
+    shapes: tuple[Shape, ...]
+    dimensions: tuple[Dimension, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -193,7 +214,8 @@ class Result:
         checks: every claim that was tested.
         outcomes: the results table, targets beside them.
         parts: what is to be cut.
-        dimensions, plots: for the drawing and the report.
+        views: of the parts among their mates.
+        plots: for the report.
         assumptions: what was taken for granted and what was not checked, in full sentences.
         advice: findings that may lead to a better design, with their numbers.
         judgement: the second opinion; None if nobody asked for one.
@@ -208,7 +230,7 @@ class Result:
     checks: tuple[Check, ...]
     outcomes: tuple[Outcome, ...]
     parts: tuple[Part, ...]
-    dimensions: tuple[Dimension, ...] = ()
+    views: tuple[View, ...] = ()
     plots: tuple[Plot, ...] = ()
     assumptions: tuple[str, ...] = ()
     advice: tuple[str, ...] = ()

@@ -213,10 +213,16 @@ def example_result(**changes) -> Result:
             Outcome("smallest gap over the stroke", 0.2871e-3, "m", None),
         ),
         parts=(
-            Part("", "flexure ring", ring, 4.5e-3, "AISI 420, hardened to 52 HRC"),
+            Part(
+                "",
+                "flexure ring",
+                ring,
+                4.5e-3,
+                "AISI 420, hardened to 52 HRC",
+                dimensions=(Dimension("R33.5", "radius", (0.0, 0.0), (33.5e-3, 0.0)),),
+            ),
             Part("camshaft", "camshaft", shaft, 4.5e-3, "AISI 420, hardened to 52 HRC"),
         ),
-        dimensions=(Dimension("", "R33.5", "radius", (0.0, 0.0), (33.5e-3, 0.0)),),
         plots=_plots(angle, torque),
         assumptions=(
             "The rim is taken as rigid; its own compliance was not checked.",

@@ -47,7 +47,7 @@ class _Cell:
 
 def result_to_svg(result: Result) -> str:
     """The drawing as SVG text; width and height are the true size in millimetres."""
-    cells = [_cell(part, result) for part in result.parts]
+    cells = [_cell(part, result.name) for part in result.parts]
     tallest = max((cell.height for cell in cells), default=0.0)
     wide = sum(cell.width for cell in cells) + _BETWEEN * max(len(cells) - 1, 0)
     title_width = max(text_width(result.name, _TITLE_SIZE), 100.0)
@@ -70,13 +70,12 @@ def result_to_svg(result: Result) -> str:
     )
 
 
-def _cell(part: Part, result: Result) -> _Cell:
+def _cell(part: Part, name: str) -> _Cell:
     bounds = np.array(contour_bounds(part.profile.outer)) * 1e3
     x0, y0, x1, y1 = (float(value) for value in bounds)
-    dimensions = [d for d in result.dimensions if d.suffix == part.suffix]
-    callouts = arrange(dimensions, 0.5e-3 * (x0 + x1))
+    callouts = arrange(part.dimensions, 0.5e-3 * (x0 + x1))
     drawing = callouts.left_width + (x1 - x0) + callouts.right_width
-    captions = max(text_width(line, _ROLE_SIZE) for line in _captions(part, result.name))
+    captions = max(text_width(line, _ROLE_SIZE) for line in _captions(part, name))
     height = max(y1 - y0 + 6.0, callouts.height + 4.0)
     return _Cell(part, (x0, y0, x1, y1), callouts, max(drawing, captions), height)
 

@@ -25,7 +25,6 @@ def summarise(spec: Spec, made: MadeJoint) -> Result:
         checks=joint_checks(made),
         outcomes=tuple(_outcomes(made)),
         parts=(_part(made),),
-        dimensions=_dimensions(made),
         plots=_plots(made),
         assumptions=tuple(_assumptions(made)),
         advice=tuple(_advice(made)),
@@ -156,20 +155,20 @@ def _outcomes(made: MadeJoint) -> Iterator[Outcome]:
 def _part(made: MadeJoint) -> Part:
     title = made.spec.material.values.title
     width = made.joint.cantilever.width
-    return Part("", "element", made.element, width, title, made.drawn.tolerance)
+    return Part("", "element", made.element, width, title, made.drawn.tolerance, _dimensions(made))
 
 
 def _dimensions(made: MadeJoint) -> tuple[Dimension, ...]:
     beam, top = made.joint.cantilever, made.geometry.top
     half = 0.5 * beam.height
     return (
-        Dimension("", "cantilever length", "linear", (-beam.length, half), (0.0, half)),
+        Dimension("cantilever length", "linear", (-beam.length, half), (0.0, half)),
         Dimension(
-            "", "cantilever height", "linear",
+            "cantilever height", "linear",
             (-0.5 * beam.length, -half), (-0.5 * beam.length, half),
         ),
         Dimension(
-            "", "contact part", "linear",
+            "contact part", "linear",
             (made.geometry.back - made.geometry.dimensions.thickness, top),
             (made.geometry.back, top),
         ),

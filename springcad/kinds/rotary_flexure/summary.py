@@ -33,7 +33,6 @@ def summarise(spec: Spec, spring: Spring) -> Result:
         checks=spring_checks(spring),
         outcomes=_outcomes(spring),
         parts=_parts(spring),
-        dimensions=_dimensions(spring),
         plots=_plots(spring),
         assumptions=_assumptions(spring),
         advice=tuple(_advice(spring)),
@@ -183,28 +182,32 @@ def _parts(spring: Spring) -> tuple[Part, ...]:
     thickness = spring.law.inputs.thickness
     tolerance = FLANK_TOLERANCE * spring.law.inputs.contact_radius
     return (
-        Part("", "flexure ring", spring.ring, thickness, title),
-        Part("camshaft", "camshaft", spring.camshaft.profile, thickness, title, tolerance),
-    )
+        Part(
+            "", "flexure ring", spring.ring, thickness, title,
+            dimensions=(
+                _radius("outer", spring.case.outer_radius, 40.0),
+                _radius("root", spring.law.inputs.root_radius, 130.0),
+                _radius("contact", spring.law.inputs.contact_radius, 220.0),
+            ),
+        ),
+        Part(
+            "camshaft", "camshaft", spring.camshaft.profile, thickness, title, tolerance,
+            tuple(_camshaft_dimensions(spring)),
+        ),
+    )  # fmt: skip
 
 
-def _dimensions(spring: Spring) -> tuple[Dimension, ...]:
-    def radius(suffix: str, label: str, value: float, degrees: float) -> Dimension:
-        at = math.radians(degrees)
-        end = (value * math.cos(at), value * math.sin(at))
-        return Dimension(suffix, label, "radius", (0.0, 0.0), end)
-
-    law, slot = spring.law, spring.camshaft.slot
-    drawn = [
-        radius("", "outer", spring.case.outer_radius, 40.0),
-        radius("", "root", law.inputs.root_radius, 130.0),
-        radius("", "contact", law.inputs.contact_radius, 220.0),
-        radius("camshaft", "tip", slot.tip_radius, 40.0),
-        radius("camshaft", "slot", slot.bottom_radius, 130.0),
-    ]
+def _camshaft_dimensions(spring: Spring) -> Iterator[Dimension]:
+    yield _radius("tip", spring.camshaft.slot.tip_radius, 40.0)
+    yield _radius("slot", spring.camshaft.slot.bottom_radius, 130.0)
     if spring.camshaft_inputs.bore_radius > 0.0:
-        drawn.append(radius("camshaft", "bore", spring.camshaft_inputs.bore_radius, 220.0))
-    return tuple(drawn)
+        yield _radius("bore", spring.camshaft_inputs.bore_radius, 220.0)
+
+
+def _radius(label: str, value: float, degrees: float) -> Dimension:
+    at = math.radians(degrees)
+    end = (value * math.cos(at), value * math.sin(at))
+    return Dimension(label, "radius", (0.0, 0.0), end)
 
 
 def _plots(spring: Spring) -> tuple[Plot, ...]:
