@@ -51,7 +51,7 @@ demo: $(READY)
 	@$(VENV)/bin/springcad design $(SPEC) -o $(OUT)
 
 test: $(READY)
-	@$(PYTHON) -m pytest -n auto $(PYTEST_ARGS)
+	@$(PYTHON) -m pytest -n auto --dist worksteal $(PYTEST_ARGS)
 
 lint: $(READY)
 	@$(PYTHON) -m ruff check .

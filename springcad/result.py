@@ -20,6 +20,7 @@ from springcad.geometry.outline import Contour, Profile
 Status = Literal["pass", "warn", "fail"]
 Scalar = float | int | str | bool | None
 Value = Scalar | NDArray[np.float64] | list["Value"] | Mapping[str, "Value"]
+Scale = Literal["linear", "log"]
 Progress = Callable[[str], None]
 
 
@@ -104,13 +105,13 @@ class Part:
 
 @dataclass(frozen=True)
 class Shape:
-    """Something shown in a view: a closed contour, or the open path through points (N, 2) [m].
+    """Something in a view: a contour, a profile with its holes, or an open path (N, 2) [m].
 
     ``role``: a part to be cut, a mate that touches it, a part or mate where it has moved to, a
     limit that must not be crossed, or an axis.
     """
 
-    line: Contour | NDArray[np.float64]
+    line: Contour | Profile | NDArray[np.float64]
     role: Literal["part", "mate", "moved", "limit", "axis"]
 
 
@@ -135,7 +136,10 @@ class Series:
 
 @dataclass(frozen=True)
 class Plot:
-    """A plot for the report; units are SI and are converted when drawn."""
+    """A plot for the report; units are SI and are converted when drawn.
+
+    A logarithmic axis leaves out what is not above zero.
+    """
 
     title: str
     x_label: str
@@ -144,6 +148,7 @@ class Plot:
     y_unit: str
     series: tuple[Series, ...]
     limit: float | None = None
+    y_scale: Scale = "linear"
 
 
 @dataclass(frozen=True)

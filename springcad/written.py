@@ -7,7 +7,7 @@ says the same in the run that made the design and a year later.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ class WrittenDesign:
         kind, name: as in the spec.
         design, response: mappings as in ``report.json``, SI.
         contours: closed contours of each part (m), by the suffix of its file.
+        spec: as the user typed it.
     """
 
     kind: str
@@ -38,6 +39,7 @@ class WrittenDesign:
     design: Mapping[str, Value]
     response: Mapping[str, Value]
     contours: Mapping[str, tuple[BulgePolyline, ...]]
+    spec: Mapping[str, Value] = field(default_factory=dict)
 
     def number(self, key: str) -> float:
         """The number at ``key``, as ``design.camshaft.free_play_rad``.

@@ -1,4 +1,7 @@
-"""``springcad materials``: the data that designs are made with, each value with its source."""
+"""``springcad materials``: the data that designs are made with, each value with its source.
+
+``springcad materials rank`` compares them.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from springcad.cli.console import result_console
+from springcad.cli.materials_rank import rank
 from springcad.cli.options import Json
 
 if TYPE_CHECKING:
@@ -20,15 +24,24 @@ _UNITS = {
     "poisson_ratio": "1",
     "density": "kg/m^3",
     "yield_strength": "Pa",
+    "flexural_strength": "Pa",
     "ultimate_strength": "Pa",
     "fatigue_strength": "Pa",
 }
 
+materials_app = typer.Typer(invoke_without_command=True, rich_markup_mode=None)
+materials_app.command()(rank)
 
-def materials(as_json: Json = False) -> None:
-    """List the materials; JSON values are in SI."""
+
+@materials_app.callback()
+def materials(context: typer.Context, as_json: Json = False) -> None:
+    """List the materials, or rank them; JSON values are in SI."""
     from springcad.materials.data import MATERIALS
 
+    if context.invoked_subcommand:
+        if as_json:
+            raise typer.BadParameter(f"--json stands behind {context.invoked_subcommand}")
+        return
     if as_json:
         data = {name: asdict(material) for name, material in MATERIALS.items()}
         typer.echo(json.dumps(data, indent=2, ensure_ascii=False))

@@ -8,6 +8,9 @@ a check against it is on the safe side, and for a modulus or a density what ``so
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
+
+Family = Literal["steel", "copper alloy", "aluminium alloy", "titanium alloy", "polymer"]
 
 
 @dataclass(frozen=True)
@@ -28,23 +31,29 @@ class Material:
     Attributes:
         name: as in the spec.
         title, temper: for people.
+        family: what rules hold for it: an S-N line can be estimated for steels only.
         elastic_modulus: Pa, in bending where the sources tell bending from tension.
         poisson_ratio: 1.
         density: kg/m^3.
         yield_strength: Pa, in tension.
+        flexural_strength: Pa, yield strength in bending where it is not that in tension.
         ultimate_strength: Pa, in tension.
         fatigue_strength: Pa, stress amplitude at the load and life that its source says.
+        fatigue_cycles: that life; None if the source is silent about it.
     """
 
     name: str
     title: str
     temper: str
+    family: Family
     elastic_modulus: Value
     poisson_ratio: Value
     density: Value
     yield_strength: Value
+    flexural_strength: Value | None = None
     ultimate_strength: Value | None = None
     fatigue_strength: Value | None = None
+    fatigue_cycles: float | None = None
 
 
 _MPA = 1e6
@@ -66,6 +75,7 @@ _TABLE = (
         name="aisi-420",
         title="stainless steel AISI 420 (1.4028)",
         temper="hardened, as paper 004 takes it",
+        family="steel",
         elastic_modulus=Value(
             200 * _GPA, "reproduces the designs of paper 004, Table I", 190 * _GPA, 200 * _GPA
         ),
@@ -84,6 +94,7 @@ _TABLE = (
         name="51crv4",
         title="spring steel 51CrV4 (1.8159)",
         temper="quenched and tempered",
+        family="steel",
         elastic_modulus=Value(206 * _GPA, _PAPER_000),
         poisson_ratio=_poisson(0.3),
         density=_handbook_density(7850),
@@ -99,6 +110,7 @@ _TABLE = (
         name="50crva",
         title="spring steel 50CrVA",
         temper="not stated in the source",
+        family="steel",
         elastic_modulus=Value(206 * _GPA, "paper 001, section 4.1 (printed there as 2.06 GPa)"),
         poisson_ratio=Value(0.29, "paper 001, section 4.1"),
         density=_handbook_density(7850),
@@ -108,6 +120,7 @@ _TABLE = (
         name="65mn",
         title="spring steel 65Mn",
         temper="quenched and tempered",
+        family="steel",
         elastic_modulus=Value(208 * _GPA, "paper 003"),
         poisson_ratio=_poisson(0.3),
         density=_handbook_density(7850, 7810, 7850),
@@ -120,6 +133,7 @@ _TABLE = (
         name="cube2",
         title="beryllium copper CuBe2",
         temper=f"from annealed to age-hardened; {_LOWER_END}",
+        family="copper alloy",
         elastic_modulus=Value(122 * _GPA, _PAPER_000),
         poisson_ratio=_poisson(0.3),
         density=_handbook_density(8250),
@@ -129,6 +143,7 @@ _TABLE = (
         name="cusn6",
         title="phosphor bronze CuSn6",
         temper=f"from soft to spring-hard; {_LOWER_END}",
+        family="copper alloy",
         elastic_modulus=Value(118 * _GPA, _PAPER_000),
         poisson_ratio=_poisson(0.34),
         density=_handbook_density(8800),
@@ -138,6 +153,7 @@ _TABLE = (
         name="en-aw-2014",
         title="aluminium EN AW-2014",
         temper=f"from annealed to T6; {_LOWER_END}",
+        family="aluminium alloy",
         elastic_modulus=Value(70 * _GPA, _PAPER_000),
         poisson_ratio=_poisson(0.33),
         density=_handbook_density(2800),
@@ -147,6 +163,7 @@ _TABLE = (
         name="al-7075-t6",
         title="aluminium 7075-T6",
         temper="T6",
+        family="aluminium alloy",
         elastic_modulus=Value(71.7 * _GPA, "common data sheets", weak=True),
         poisson_ratio=_poisson(0.33),
         density=_handbook_density(2810),
@@ -159,6 +176,7 @@ _TABLE = (
         name="ti-6al-4v",
         title="titanium Ti-6Al-4V (grade 5)",
         temper="solution treated and aged",
+        family="titanium alloy",
         elastic_modulus=Value(
             112.5 * _GPA, "ASM and producers, middle of the range", 105 * _GPA, 120 * _GPA
         ),
@@ -172,11 +190,13 @@ _TABLE = (
             570 * _MPA,
             700 * _MPA,
         ),
+        fatigue_cycles=1e7,
     ),
     Material(
         name="17-7ph",
         title="stainless steel 17-7PH",
         temper="precipitation hardened; peening changes its fatigue strength",
+        family="steel",
         elastic_modulus=Value(204 * _GPA, "AZoM"),
         poisson_ratio=_poisson(0.3),
         density=Value(7800, "AZoM"),
@@ -187,6 +207,7 @@ _TABLE = (
         name="maraging-300",
         title="maraging steel 300",
         temper="aged",
+        family="steel",
         elastic_modulus=Value(189.6 * _GPA, "one user's table", weak=True),
         poisson_ratio=_poisson(0.3),
         density=Value(8000, "one user's table", 8000, 8100, weak=True),
@@ -197,40 +218,40 @@ _TABLE = (
         name="pom-c",
         title="POM-C (TECAFORM AH)",
         temper="as extruded; no endurance limit, creeps",
+        family="polymer",
         elastic_modulus=Value(
             2.6 * _GPA, f"{_PAPER_000}, flexural (tensile 2.8 GPa)", 2.6 * _GPA, 2.8 * _GPA
         ),
         poisson_ratio=_poisson(0.35),
         density=Value(1410, "Engineering Plastics Handbook"),
-        yield_strength=Value(
-            67 * _MPA, f"{_PAPER_000}, tensile (flexural 91 MPa)", 67 * _MPA, 91 * _MPA
-        ),
+        yield_strength=Value(67 * _MPA, f"{_PAPER_000}, tensile"),
+        flexural_strength=Value(91 * _MPA, f"{_PAPER_000}, flexural"),
     ),
     Material(
         name="pet",
         title="PET (TECADUR PET)",
         temper="as extruded; no endurance limit, creeps",
+        family="polymer",
         elastic_modulus=Value(
             3.4 * _GPA, f"{_PAPER_000}, flexural (tensile 3.3 GPa)", 3.3 * _GPA, 3.4 * _GPA
         ),
         poisson_ratio=_poisson(0.38),
         density=_handbook_density(1390),
-        yield_strength=Value(
-            91 * _MPA, f"{_PAPER_000}, tensile (flexural 134 MPa)", 91 * _MPA, 134 * _MPA
-        ),
+        yield_strength=Value(91 * _MPA, f"{_PAPER_000}, tensile"),
+        flexural_strength=Value(134 * _MPA, f"{_PAPER_000}, flexural"),
     ),
     Material(
         name="pei",
         title="PEI (TECAPEI)",
         temper="as extruded; no endurance limit, creeps",
+        family="polymer",
         elastic_modulus=Value(
             3.3 * _GPA, f"{_PAPER_000}, flexural (tensile 3.2 GPa)", 3.2 * _GPA, 3.3 * _GPA
         ),
         poisson_ratio=_poisson(0.36),
         density=_handbook_density(1270),
-        yield_strength=Value(
-            127 * _MPA, f"{_PAPER_000}, tensile (flexural 164 MPa)", 127 * _MPA, 164 * _MPA
-        ),
+        yield_strength=Value(127 * _MPA, f"{_PAPER_000}, tensile"),
+        flexural_strength=Value(164 * _MPA, f"{_PAPER_000}, flexural"),
     ),
 )
 

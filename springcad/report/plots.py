@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.report.display import display_unit, format_value, printable, typeset
-from springcad.result import Plot, Series
+from springcad.result import Plot, Scale, Series
 
 _WIDTH, _HEIGHT = 480, 300
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62, 468, 12, 252
 _COLOURS = 6
 _TICKS = 6
+_FEW_DECADES = 4
 
 
 class LegendEntry(NamedTuple):
@@ -38,15 +39,21 @@ class Axis:
     ticks: tuple[float, ...]
     start: float
     end: float
+    scale: Scale = "linear"
 
     def pixels(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         low, high = self.ticks[0], self.ticks[-1]
+        if self.scale == "log":
+            values, low, high = np.log10(values), math.log10(low), math.log10(high)
         return self.start + (values - low) / (high - low) * (self.end - self.start)
 
     def pixel(self, value: float) -> float:
         return float(self.pixels(np.array(value)))
 
     def labels(self) -> Iterator[tuple[float, str]]:
+        if self.scale == "log":
+            yield from ((self.pixel(tick), f"{tick:.15g}") for tick in self.ticks)
+            return
         step = self.ticks[1] - self.ticks[0]
         decimals = max(0, -math.floor(math.log10(step) + 1e-9))
         if round(step, decimals) != round(step, decimals + 1):
@@ -73,12 +80,15 @@ def plot_svg(plot: Plot, identifier: str) -> str:
     """``plot`` as an SVG element; ``identifier`` makes its ids unique on the page."""
     x_scale, _ = display_unit(plot.x_unit)
     y_scale, _ = display_unit(plot.y_unit)
-    curves = [_finite_parts(s, x_scale, y_scale) for s in plot.series]
+    curves = [_finite_parts(s, x_scale, y_scale, plot.y_scale) for s in plot.series]
     points = [part for parts in curves for part in parts]
     limits = [] if plot.limit is None else [np.array([plot.limit * y_scale])]
     x_axis = Axis(_axis_ticks([p[:, 0] for p in points]), _LEFT, _RIGHT)
-    y_axis = Axis(_axis_ticks([*(p[:, 1] for p in points), *limits]), _BOTTOM, _TOP)
-    body = [*_grid(x_axis, y_axis), *_labels(plot)]
+    y_values = [*(p[:, 1] for p in points), *limits]
+    y_ticks = log_ticks(y_values) if plot.y_scale == "log" else _axis_ticks(y_values)
+    y_axis = Axis(y_ticks, _BOTTOM, _TOP, plot.y_scale)
+    x_text, y_text = _with_unit(plot.x_label, plot.x_unit), _with_unit(plot.y_label, plot.y_unit)
+    body = [*grid(x_axis, y_axis), *titles(x_axis, y_axis, x_text, y_text)]
     for index, (series, parts) in enumerate(zip(plot.series, curves, strict=True)):
         body += [_curve(part, x_axis, y_axis, _classes(index, series)) for part in parts]
     if plot.limit is not None:
@@ -96,9 +106,13 @@ def plot_svg(plot: Plot, identifier: str) -> str:
     )
 
 
-def _finite_parts(series: Series, x_scale: float, y_scale: float) -> list[NDArray[np.float64]]:
-    """The points (N, 2) in display units, cut where a value is missing."""
+def _finite_parts(
+    series: Series, x_scale: float, y_scale: float, scale: Scale
+) -> list[NDArray[np.float64]]:
+    """The points (N, 2) in display units, cut where a value is missing or cannot be shown."""
     points = np.column_stack([series.x * x_scale, series.y * y_scale])
+    if scale == "log":
+        points[points[:, 1] <= 0.0] = np.nan
     finite = np.isfinite(points).all(axis=1)
     parts = np.split(points, np.flatnonzero(np.diff(finite)) + 1)
     return [part for part in parts if part.size and np.isfinite(part).all()]
@@ -133,22 +147,42 @@ def nice_ticks(low: float, high: float) -> tuple[float, ...]:
     return tuple(index * step for index in range(first, last + 1))
 
 
-def _grid(x_axis: Axis, y_axis: Axis) -> Iterator[str]:
+def log_ticks(values: Iterable[NDArray[np.float64]]) -> tuple[float, ...]:
+    """Ticks at 1, 2 and 5 times powers of ten, or at powers alone, that enclose ``values`` (> 0).
+
+    ``values`` that do not fill a step are widened to one.
+    """
+    all_values = np.concatenate([np.empty(0), *values])
+    if not all_values.size:
+        return (1.0, 10.0)
+    low, high = float(all_values.min()) * (1 + 1e-9), float(all_values.max()) * (1 - 1e-9)
+    decades = range(math.floor(math.log10(low)), math.floor(math.log10(high)) + 2)
+    mantissas = (1, 2, 5) if len(decades) <= _FEW_DECADES else (1,)
+    steps = [float(f"{m}e{n}") for n in decades for m in mantissas]
+    first = max(index for index, step in enumerate(steps) if step <= low)
+    last = min(index for index, step in enumerate(steps) if step >= high)
+    return tuple(steps[first : max(last, first + 1) + 1])
+
+
+def grid(x_axis: Axis, y_axis: Axis) -> Iterator[str]:
+    """Lines and numbers at the ticks of both axes, and the axes."""
+    left, right, top, bottom = x_axis.start, x_axis.end, y_axis.end, y_axis.start
     for x, text in x_axis.labels():
-        yield f'<path class="grid" d="M{x:.2f} {_TOP}V{_BOTTOM}"/>'
-        yield f'<text class="tick" x="{x:.2f}" y="{_BOTTOM + 17}">{text}</text>'
+        yield f'<path class="grid" d="M{x:.2f} {top}V{bottom}"/>'
+        yield f'<text class="tick" x="{x:.2f}" y="{bottom + 17}">{text}</text>'
     for y, text in y_axis.labels():
-        yield f'<path class="grid" d="M{_LEFT} {y:.2f}H{_RIGHT}"/>'
-        yield f'<text class="tick y" x="{_LEFT - 7}" y="{y + 4:.2f}">{text}</text>'
-    x_zero = x_axis.pixel(0.0) if 0.0 in x_axis.ticks else _LEFT
-    y_zero = y_axis.pixel(0.0) if 0.0 in y_axis.ticks else _BOTTOM
-    yield f'<path class="axis" d="M{_LEFT} {y_zero:.2f}H{_RIGHT}M{x_zero:.2f} {_TOP}V{_BOTTOM}"/>'
+        yield f'<path class="grid" d="M{left} {y:.2f}H{right}"/>'
+        yield f'<text class="tick y" x="{left - 7}" y="{y + 4:.2f}">{text}</text>'
+    x_zero = x_axis.pixel(0.0) if 0.0 in x_axis.ticks else left
+    y_zero = y_axis.pixel(0.0) if 0.0 in y_axis.ticks else bottom
+    yield f'<path class="axis" d="M{left} {y_zero:.2f}H{right}M{x_zero:.2f} {top}V{bottom}"/>'
 
 
-def _labels(plot: Plot) -> Iterator[str]:
-    middle_x, middle_y = (_LEFT + _RIGHT) / 2, (_TOP + _BOTTOM) / 2
-    x_text, y_text = _with_unit(plot.x_label, plot.x_unit), _with_unit(plot.y_label, plot.y_unit)
-    yield f'<text class="label" x="{middle_x:g}" y="{_HEIGHT - 10}">{_safe(x_text)}</text>'
+def titles(x_axis: Axis, y_axis: Axis, x_text: str, y_text: str) -> Iterator[str]:
+    """What the axes show, under the numbers along x and at the left of those along y."""
+    middle_x, middle_y = (x_axis.start + x_axis.end) / 2, (y_axis.start + y_axis.end) / 2
+    below = y_axis.start + 38
+    yield f'<text class="label" x="{middle_x:g}" y="{below}">{_safe(x_text)}</text>'
     place = f"translate(14 {middle_y:g}) rotate(-90)"
     yield f'<text class="label" transform="{place}">{_safe(y_text)}</text>'
 

@@ -104,30 +104,36 @@ def test_the_deck_is_written_beside_the_report(design, run_with_fake_kind):
     assert "plate-area.inp" in run.stdout
 
 
-@pytest.mark.parametrize(
-    ("damage", "words"),
-    [
-        (lambda folder: (folder / "report.json").unlink(), "there is no report.json"),
-        (lambda folder: (folder / "manifest.json").unlink(), "there is no manifest.json"),
-        (lambda folder: (folder / "plate.dxf").unlink(), "there is no such file"),
-        (lambda folder: (folder / "plate.dxf").write_text("nothing"), "not a readable DXF"),
-        (lambda folder: (folder / "report.json").write_text("{"), "not readable JSON"),
-        (lambda folder: (folder / "report.json").write_text("[" * 10000), "not readable JSON"),
-        (lambda folder: (folder / "report.json").write_text("[]"), "holds no JSON object"),
-        (lambda folder: edit(folder, lambda r: r.pop("design")), "design is missing"),
-        (lambda folder: edit(folder, lambda r: r["design"].pop("size_m")), "size_m is missing"),
-        (lambda folder: edit(folder, lambda r: r["design"].update(size_m="2")), "not a number"),
-        (lambda folder: edit(folder, lambda r: r.update(kind="nope")), "kind 'nope'"),
-        (lambda folder: shutil.rmtree(folder), "there is no plate"),
-    ],
+DAMAGES = (
+    (lambda folder: (folder / "report.json").unlink(), "there is no report.json"),
+    (lambda folder: (folder / "manifest.json").unlink(), "there is no manifest.json"),
+    (lambda folder: (folder / "plate.dxf").unlink(), "there is no such file"),
+    (lambda folder: (folder / "plate.dxf").write_text("nothing"), "not a readable DXF"),
+    (lambda folder: (folder / "report.json").write_text("{"), "not readable JSON"),
+    (lambda folder: (folder / "report.json").write_text("[" * 10000), "not readable JSON"),
+    (lambda folder: (folder / "report.json").write_text("[]"), "holds no JSON object"),
+    (lambda folder: edit(folder, lambda r: r.pop("design")), "design is missing"),
+    (lambda folder: edit(folder, lambda r: r["design"].pop("size_m")), "size_m is missing"),
+    (lambda folder: edit(folder, lambda r: r["design"].update(size_m="2")), "not a number"),
+    (lambda folder: edit(folder, lambda r: r.update(kind="nope")), "kind 'nope'"),
+    (lambda folder: shutil.rmtree(folder), "there is no "),
 )
-def test_a_damaged_design_is_refused_in_one_line(design, run_with_fake_kind, damage, words):
-    folder = design("good")
-    damage(folder)
-    run = run_with_fake_kind("verify", folder)
+
+
+def test_each_damaged_design_is_refused_in_one_line(design, run_with_fake_kind, tmp_path):
+    good = design("good")
+    folders = []
+    for index, (damage, _) in enumerate(DAMAGES):
+        folder = shutil.copytree(good, tmp_path / f"damaged-{index}")
+        damage(folder)
+        folders.append(folder)
+    run = run_with_fake_kind("verify", *folders)
     assert run.returncode == 3
-    assert words in run.stderr
-    assert len(run.stderr.splitlines()) == 1
+    told = run.stderr.splitlines()
+    assert len(told) == len(DAMAGES)
+    for (_, words), folder, line in zip(DAMAGES, folders, told, strict=True):
+        assert folder.name in line
+        assert words in line
 
 
 def edit(folder: Path, change) -> None:

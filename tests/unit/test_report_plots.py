@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 import xml.etree.ElementTree as ET
 
@@ -11,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from report_example import example_result
 
-from springcad.report.plots import legend, nice_ticks, plot_svg
+from springcad.report.plots import legend, log_ticks, nice_ticks, plot_svg
 from springcad.result import Plot, Series
 
 FRAME_X, FRAME_Y = (62, 468), (12, 252)
@@ -137,3 +138,22 @@ def test_texts_are_escaped():
     plot = Plot("<script>", "a & b", "rad", '"y"', "</svg>", series)
     root = ET.fromstring(plot_svg(plot, "p"))
     assert root.find("title").text == "<script>"
+
+
+@given(st.floats(1e-6, 1e8), st.floats(1.0, 1e8))
+def test_logarithmic_ticks_are_round_and_enclose_the_data(low, ratio):
+    ticks = log_ticks([np.array([low, low * ratio])])
+    assert ticks[0] <= low * (1 + 1e-8)
+    assert ticks[-1] >= low * ratio * (1 - 1e-8)
+    assert 2 <= len(ticks) <= 17
+    mantissas = {f"{tick:e}".split("e")[0] for tick in ticks}
+    assert mantissas <= {"1.000000", "2.000000", "5.000000"}
+
+
+def test_equal_ratios_are_equally_far_apart_on_a_logarithmic_axis():
+    plot = line([0, 1, 2, 3], [1e6, 1e7, 0.0, 1e9])
+    svg = plot_svg(dataclasses.replace(plot, y_scale="log"), "p")
+    assert tick_labels(svg)[1] == ["1", "2", "5", "10", "20", "50", "100", "200", "500", "1000"]
+    (points,) = curves(svg)
+    assert points[:, 1] == pytest.approx([252, 172], abs=0.01)
+    assert 'cy="12.00"' in svg
