@@ -1,13 +1,20 @@
-"""A finished design as one drawing: every part at true size (mm), side by side, with dimensions."""
+"""A finished design as one drawing at true size (mm): its parts, and views of them among mates."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 
-import numpy as np
-
-from springcad.export.dxf import part_file
-from springcad.export.svg_dimensions import Callouts, arrange, draw
+from springcad.export.svg_cells import (
+    CAPTION,
+    GREY,
+    ROLE_SIZE,
+    SMALL_SIZE,
+    Cell,
+    cell_group,
+    part_cell,
+    view_cell,
+)
+from springcad.export.svg_shapes import INK
 from springcad.export.svg_text import (
     Attributes,
     Point,
@@ -18,49 +25,39 @@ from springcad.export.svg_text import (
     text_line,
     text_width,
 )
-from springcad.geometry.biarc import fit_contour
-from springcad.geometry.outline import Contour, Floats
-from springcad.geometry.outline_ops import contour_bounds
-from springcad.geometry.polyline import BulgePolyline, radii
-from springcad.result import Part, Result
+from springcad.result import Result
 
 _MARGIN = 8.0
-_BETWEEN = 12.0  # mm between the cells of two parts
+_BETWEEN = 12.0  # mm between the cells of a row
+_BETWEEN_ROWS = 6.0
 _HEADER = 12.0
-_CAPTION = 12.0
 _FOOTER = 5.0
-_TITLE_SIZE, _ROLE_SIZE, _SMALL_SIZE = 4.2, 3.0, 2.4
-_INK, _GREY, _MATERIAL = "#111111", "#555555", "#e3e9ef"
-_CUT_WIDTH = 0.1
-
-
-@dataclass(frozen=True)
-class _Cell:
-    """One part and the room that it takes on the sheet, all in mm."""
-
-    part: Part
-    bounds: tuple[float, float, float, float]
-    callouts: Callouts
-    width: float
-    height: float
+_TITLE_SIZE = 4.2
+_VIEWS_WIDTH = 281.0
+"""Views go on in a new row when they would be wider than this, that of A4, or the parts (mm)."""
 
 
 def result_to_svg(result: Result) -> str:
     """The drawing as SVG text; width and height are the true size in millimetres."""
-    cells = [_cell(part, result.name) for part in result.parts]
-    tallest = max((cell.height for cell in cells), default=0.0)
-    wide = sum(cell.width for cell in cells) + _BETWEEN * max(len(cells) - 1, 0)
+    parts = [part_cell(part, result.name) for part in result.parts]
+    widest = max(_row_width(parts), _VIEWS_WIDTH)
+    rows = [parts, *_rows([view_cell(view) for view in result.views], widest)]
+    heights = [max((cell.height for cell in row), default=0.0) for row in rows]
     title_width = max(text_width(result.name, _TITLE_SIZE), 100.0)
-    width = max(wide, title_width) + 2.0 * _MARGIN
-    height = 2.0 * _MARGIN + _HEADER + tallest + _CAPTION + _FOOTER
+    width = max(title_width, *map(_row_width, rows)) + 2.0 * _MARGIN
+    drawing = sum(heights) + CAPTION * len(rows) + _BETWEEN_ROWS * (len(rows) - 1)
+    height = 2.0 * _MARGIN + _HEADER + drawing + _FOOTER
     drawn = [
         element("rect", {"width": width, "height": height, "fill": "#ffffff"}),
         *_frame(result, width, height),
     ]
-    x = 0.5 * (width - wide)
-    for cell in cells:
-        drawn.append(_part_group(cell, (x, _MARGIN + _HEADER), tallest, result.name))
-        x += cell.width + _BETWEEN
+    top = _MARGIN + _HEADER
+    for row, tallest in zip(rows, heights, strict=True):
+        x = 0.5 * (width - _row_width(row))
+        for cell in row:
+            drawn.append(cell_group(cell, (x, top), tallest))
+            x += cell.width + _BETWEEN
+        top += tallest + CAPTION + _BETWEEN_ROWS
     content = "\n".join([f"<title>{clean(result.name)}</title>", *drawn])
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
@@ -70,72 +67,19 @@ def result_to_svg(result: Result) -> str:
     )
 
 
-def _cell(part: Part, name: str) -> _Cell:
-    bounds = np.array(contour_bounds(part.profile.outer)) * 1e3
-    x0, y0, x1, y1 = (float(value) for value in bounds)
-    callouts = arrange(part.dimensions, 0.5e-3 * (x0 + x1))
-    drawing = callouts.left_width + (x1 - x0) + callouts.right_width
-    captions = max(text_width(line, _ROLE_SIZE) for line in _captions(part, name))
-    height = max(y1 - y0 + 6.0, callouts.height + 4.0)
-    return _Cell(part, (x0, y0, x1, y1), callouts, max(drawing, captions), height)
+def _row_width(row: Sequence[Cell]) -> float:
+    return sum(cell.width for cell in row) + _BETWEEN * max(len(row) - 1, 0)
 
 
-def _captions(part: Part, name: str) -> tuple[str, str]:
-    file = part_file(name, part.suffix)
-    return part.role, f"{number(part.thickness * 1e3)} mm {part.material}, {file}"
-
-
-def _part_group(cell: _Cell, corner: Point, tallest: float, name: str) -> str:
-    """The part in the middle of its cell, its callouts beside it and its captions below."""
-    x0, y0, x1, y1 = cell.bounds
-    callouts = cell.callouts
-    drawing = callouts.left_width + (x1 - x0) + callouts.right_width
-    left = corner[0] + 0.5 * (cell.width - drawing) + callouts.left_width
-    top = corner[1] + 0.5 * (tallest - (y1 - y0))
-    origin = (left - x0, top + y1)
-    role, details = _captions(cell.part, name)
-    middle, below = left + 0.5 * (x1 - x0), corner[1] + tallest + 5.0
-    profile = cell.part.profile
-    contours, tolerance = (profile.outer, *profile.inner), cell.part.tolerance
-    data = " ".join(_contour_data(contour, origin, tolerance) for contour in contours)
-    shape: Attributes = {
-        "d": data,
-        "fill": _MATERIAL,
-        "fill-rule": "evenodd",
-        "stroke": _INK,
-        "stroke-width": _CUT_WIDTH,
-        "stroke-linejoin": "round",
-    }
-    content = [
-        f"<title>{clean(role)}</title>",
-        element("path", shape),
-        *draw(callouts, origin, (left, top, left + (x1 - x0), top + (y1 - y0))),
-        text_line((middle, below), role, _ROLE_SIZE, anchor="middle", color=_INK, weight="bold"),
-        text_line((middle, below + 4.0), details, _SMALL_SIZE, anchor="middle", color=_GREY),
-    ]
-    return element("g", {}, "\n" + "\n".join(content) + "\n")
-
-
-def _contour_data(contour: Contour, origin: Point, tolerance: float) -> str:
-    """Path data with true arcs; ``origin`` is where the part's frame lies on the sheet (mm)."""
-    polyline = fit_contour(contour, tolerance)
-    x = origin[0] + 1e3 * polyline.points[:, 0]
-    y = origin[1] - 1e3 * polyline.points[:, 1]
-    return f"M{number(x[0])} {number(y[0])}{_segments_data(polyline, x, y)}Z"
-
-
-def _segments_data(polyline: BulgePolyline, x: Floats, y: Floats) -> str:
-    written = []
-    for i, (bulge, radius) in enumerate(zip(polyline.bulges, radii(polyline) * 1e3, strict=True)):
-        end = (i + 1) % len(x)
-        to = f"{number(x[end])} {number(y[end])}"
-        if bulge == 0.0 or radius > 1e5:
-            written.append(f"L{to}")
+def _rows(cells: Sequence[Cell], widest: float) -> list[list[Cell]]:
+    """The cells in order, as many in a row as fit into the width; always one."""
+    rows: list[list[Cell]] = []
+    for cell in cells:
+        if rows and _row_width([*rows[-1], cell]) <= widest:
+            rows[-1].append(cell)
         else:
-            # The sheet has y downwards: a turn to the left is against SVG's positive sense.
-            r = number(radius)
-            written.append(f"A{r} {r} 0 0 {0 if bulge > 0.0 else 1} {to}")
-    return "".join(written)
+            rows.append([cell])
+    return rows
 
 
 def _frame(result: Result, width: float, height: float) -> list[str]:
@@ -147,7 +91,7 @@ def _frame(result: Result, width: float, height: float) -> list[str]:
         "width": width - _MARGIN,
         "height": height - _MARGIN,
         "fill": "none",
-        "stroke": _INK,
+        "stroke": INK,
         "stroke-width": 0.25,
     }
     rule = _MARGIN + _HEADER - 3.5
@@ -155,17 +99,17 @@ def _frame(result: Result, width: float, height: float) -> list[str]:
     title = (_MARGIN, _MARGIN + 4.5)
     return [
         element("rect", border),
-        text_line(title, result.name, _TITLE_SIZE, color=_INK, weight="bold"),
-        text_line((width - _MARGIN, title[1]), result.kind, _ROLE_SIZE, anchor="end", color=_GREY),
-        stroke_path(((inset, rule), (width - inset, rule)), _INK, 0.18),
-        stroke_path(((inset, foot), (width - inset, foot)), _INK, 0.18),
+        text_line(title, result.name, _TITLE_SIZE, color=INK, weight="bold"),
+        text_line((width - _MARGIN, title[1]), result.kind, ROLE_SIZE, anchor="end", color=GREY),
+        stroke_path(((inset, rule), (width - inset, rule)), INK, 0.18),
+        stroke_path(((inset, foot), (width - inset, foot)), INK, 0.18),
         *_scale_bar((_MARGIN, foot + 4.0)),
         text_line(
             (width - _MARGIN, foot + 5.2),
             "dimensions in mm, scale 1:1",
-            _SMALL_SIZE,
+            SMALL_SIZE,
             anchor="end",
-            color=_GREY,
+            color=GREY,
         ),
     ]
 
@@ -181,11 +125,11 @@ def _scale_bar(start: Point) -> list[str]:
                 "y": y,
                 "width": 5.0,
                 "height": 1.2,
-                "fill": _INK if i % 2 == 0 else "#ffffff",
-                "stroke": _INK,
+                "fill": INK if i % 2 == 0 else "#ffffff",
+                "stroke": INK,
                 "stroke-width": 0.12,
             },
         )
         for i in range(4)
     ]
-    return [*steps, text_line((x + 21.5, y + 1.4), "20 mm", _SMALL_SIZE, color=_GREY)]
+    return [*steps, text_line((x + 21.5, y + 1.4), "20 mm", SMALL_SIZE, color=GREY)]

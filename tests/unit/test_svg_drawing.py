@@ -13,13 +13,13 @@ from springcad.export.svg import result_to_svg
 from springcad.export.svg_dimensions import arrange, dimension_text
 from springcad.export.svg_text import number
 from springcad.geometry.outline import Arc, Circle, Line, Outline, Profile
-from springcad.result import Dimension, Part, Result
+from springcad.result import Dimension, Part, Result, Shape, View
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def result(parts, name="knee-s2"):
-    return Result("rotary-flexure", name, {}, {}, {}, (), (), tuple(parts))
+def result(parts, name="knee-s2", views=()):
+    return Result("rotary-flexure", name, {}, {}, {}, (), (), tuple(parts), tuple(views))
 
 
 def ring(dimensions=(), role="flexure ring", material="AISI 420"):
@@ -161,6 +161,90 @@ def test_a_part_that_is_not_finite_is_not_drawn():
 def test_a_part_without_dimensions_and_a_plain_polygon_are_drawn():
     square = Part("", "plate", Profile(polygon((0, 0), (10, 0), (10, 10), (0, 10))), 1e-3, "x")
     assert "A" not in re.search(r' d="(M[^"]*Z)"', result_to_svg(result([square]))).group(1)
+
+
+ROLLER = View(
+    "at rest",
+    (
+        Shape(polygon((0, 0), (30, 0), (30, 10), (0, 10)), "part"),
+        Shape(Circle((15e-3, 14e-3), 4e-3), "mate"),
+        Shape(Circle((15e-3, 12e-3), 4e-3), "moved"),
+        Shape(np.array([[-2e-3, 20e-3], [32e-3, 20e-3]]), "limit"),
+        Shape(np.array([[-2e-3, 14e-3], [15e-3, 14e-3], [32e-3, 14e-3]]), "axis"),
+    ),
+    (Dimension("sunk", "linear", (15e-3, 12e-3), (15e-3, 14e-3)),),
+)
+
+
+def view_groups(root):
+    return [g for g in root.iter(f"{SVG}g") if g.find(f"{SVG}title").text == ROLLER.title]
+
+
+def numbers_of(path):
+    return [float(x) for x in re.findall(r"-?[0-9.]+", path.attrib["d"])]
+
+
+def test_views_stand_below_the_parts_at_true_size_with_title_and_dimensions():
+    bare = ElementTree.fromstring(result_to_svg(result([ring()])))
+    root = ElementTree.fromstring(result_to_svg(result([ring()], views=[ROLLER])))
+    (group,) = view_groups(root)
+    part, roller, moved, limit, axis = list(group.iter(f"{SVG}path"))[:5]
+    assert numbers_of(roller)[2:4] == [4.0, 4.0]  # true arcs, millimetres
+    (x0, y0, x1, y1, x2, y2) = numbers_of(axis)
+    assert (x1 - x0, x2 - x1) == pytest.approx((17.0, 17.0), abs=1e-9)
+    assert y0 == y1 == y2
+    assert "Z" not in axis.attrib["d"]
+    assert numbers_of(limit)[1] == pytest.approx(y0 - 6.0, abs=1e-9)  # y runs downwards
+    assert numbers_of(moved)[1] == pytest.approx(numbers_of(roller)[1] + 2.0, abs=1e-9)
+    assert texts(root).count("at rest") == texts(root).count("2 sunk") == 1
+    height = float(root.attrib["height"][:-2])
+    assert height > float(bare.attrib["height"][:-2]) + 20.0
+    (ring_path,) = [p for p in bare.iter(f"{SVG}path") if "fill-rule" in p.attrib]
+    assert min(numbers_of(part)[1::2]) > 8.0 + 12.0 + 67.0
+    assert ring_path.attrib["d"] in {p.attrib.get("d") for p in root.iter(f"{SVG}path")}
+
+
+def test_roles_are_told_apart_by_line_and_tone_without_colour():
+    root = ElementTree.fromstring(result_to_svg(result([ring()], views=[ROLLER])))
+    (group,) = view_groups(root)
+    part, mate, moved, limit, axis = list(group.iter(f"{SVG}path"))[:5]
+    dashes = [p.attrib.get("stroke-dasharray") for p in (part, mate, moved, limit, axis)]
+    assert dashes[:2] == [None, None]
+    assert len(set(dashes[2:])) == 3
+    assert {p.attrib["fill"] for p in (moved, limit, axis)} == {"none"}
+    assert "none" not in {part.attrib["fill"], mate.attrib["fill"]}
+    assert part.attrib["fill"] != mate.attrib["fill"]
+
+
+def test_a_part_in_a_view_shows_its_holes():
+    plate = Profile(Circle((0.0, 0.0), 5e-3), (Circle((0.0, 0.0), 2e-3),))
+    view = View("at rest", (Shape(plate, "part"),))
+    (group,) = view_groups(ElementTree.fromstring(result_to_svg(result([ring()], views=[view]))))
+    assert group.find(f"{SVG}path").attrib["d"].count("Z") == 2
+    assert group.find(f"{SVG}path").attrib["fill-rule"] == "evenodd"
+
+
+@pytest.mark.parametrize(("count", "rows"), [(1, 1), (3, 1), (8, 2)])
+def test_views_go_on_in_a_new_row_where_the_sheet_ends(count, rows):
+    root = ElementTree.fromstring(result_to_svg(result([ring()], views=[ROLLER] * count)))
+    tops = {numbers_of(group.find(f"{SVG}path"))[1] for group in view_groups(root)}
+    assert len(view_groups(root)) == count
+    assert len(tops) == rows
+    width, height = (float(root.attrib[side][:-2]) for side in ("width", "height"))
+    for group in view_groups(root):
+        corners = numbers_of(group.find(f"{SVG}path"))
+        assert 4.0 < min(corners[::2]) < max(corners[::2]) < width - 4.0
+        assert max(corners[1::2]) < height - 13.0
+
+
+def test_a_caption_wider_than_what_it_names_stays_on_the_sheet():
+    view = View(
+        "a title much longer than the roller is wide", (Shape(ROLLER.shapes[1].line, "mate"),)
+    )
+    root = ElementTree.fromstring(result_to_svg(result([], views=[view])))
+    (title,) = [t for t in root.iter(f"{SVG}text") if t.text == view.title]
+    half = 0.5 * 0.6 * 3.0 * len(view.title)
+    assert half + 4.0 < float(title.attrib["x"]) < float(root.attrib["width"][:-2]) - half - 4.0
 
 
 def test_rsvg_renders_it(tmp_path, require_tool):
