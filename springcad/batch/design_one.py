@@ -82,6 +82,16 @@ def design_one(path: Path, spec: Spec, wishes: Wishes, progress: Progress) -> At
     from springcad.kinds import load_kind
 
     result = load_kind(spec.kind).design_spec(spec, progress)
+    return written_attempt(path, result, spec, wishes, progress)
+
+
+def written_attempt(
+    path: Path, result: Result, spec: Spec, wishes: Wishes, progress: Progress
+) -> Attempt:
+    """The result with its drawings read back and judged, all its files written into OUT/NAME.
+
+    ``path`` is what the user named. Raises OutputError like ``design_one``.
+    """
     progress("writing and reading back the drawings")
     sheets = _sheets(result)
     result = replace(result, checks=result.checks + _preflight(sheets, spec))
@@ -158,6 +168,7 @@ def _judged(result: Result, sheets: Sequence[_Sheet], progress: Progress) -> Res
         result.design,
         result.response,
         {sheet.part.suffix: sheet.drawing.polylines for sheet in sheets},
+        result.spec,
     )
     judgement = second_opinion(design, progress)
     return replace(

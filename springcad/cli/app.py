@@ -8,11 +8,12 @@ import typer
 
 from springcad import __version__
 from springcad.cli.check import check
+from springcad.cli.compensate import compensate
 from springcad.cli.design import design
 from springcad.cli.doctor import doctor
 from springcad.cli.init import init
 from springcad.cli.kinds import kinds
-from springcad.cli.materials import materials
+from springcad.cli.materials import materials_app
 from springcad.cli.preflight import preflight
 from springcad.cli.schema import schema
 from springcad.cli.verify import verify
@@ -31,8 +32,19 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-for _command in (design, check, verify, preflight, init, schema, materials, kinds, doctor):
+for _command in (
+    design,
+    check,
+    verify,
+    compensate,
+    preflight,
+    init,
+    schema,
+    kinds,
+    doctor,
+):
     app.command()(_command)
+app.add_typer(materials_app, name="materials")
 
 
 def _show_version(wanted: bool) -> None:

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib import import_module
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, cast
 
 if TYPE_CHECKING:
     from springcad.result import Check, Judgement, Progress, Result
     from springcad.spec.common import CommonSpec
     from springcad.spec.source import Spec
+    from springcad.spec.torque_curve import TorqueFile
     from springcad.written import WrittenDesign
 
 KINDS = {
@@ -23,6 +24,14 @@ KINDS = {
     "roller-cam": (
         "springcad.kinds.roller_cam",
         "cantilever and contact profile for a roller, for any torque law (paper 001)",
+    ),
+    "lever-arm": (
+        "springcad.kinds.lever_arm",
+        "leaf spring behind a lever with a moving pivot, for a variable stiffness (paper 000)",
+    ),
+    "leaf-2dof": (
+        "springcad.kinds.leaf_2dof",
+        "leaf springs of adjustable length for a wrist with two axes (paper 003)",
     ),
 }
 """Name in the spec → (package, one line for people). Packages are imported only when needed."""
@@ -51,7 +60,27 @@ class Kind(Protocol):
         ...
 
 
+class CompensatingKind(Kind, Protocol):
+    """A kind whose designs can be made up for what the user's own simulation or test shows."""
+
+    def next_spec(self, design: WrittenDesign) -> Spec:
+        """The spec of the next design, with a name of its own."""
+        ...
+
+    def compensate_design(
+        self, spec: Spec, design: WrittenDesign, curve: TorqueFile, progress: Progress
+    ) -> Result:
+        """The next design, from a torque curve of the written one; ``SpecError`` if it is bad."""
+        ...
+
+
 def load_kind(name: str) -> Kind:
     """The package of the kind ``name``; KeyError for an unknown name."""
     package, _ = KINDS[name]
     return import_module(package)
+
+
+def compensating_kind(name: str) -> CompensatingKind | None:
+    """The same for a kind that offers compensation; None for one that does not."""
+    kind = load_kind(name)
+    return cast(CompensatingKind, kind) if hasattr(kind, "compensate_design") else None

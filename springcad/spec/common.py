@@ -1,4 +1,4 @@
-"""What every kind of spec has in common: value types with their ranges, material, process.
+"""What every kind of spec has in common: value types with their ranges, process, name.
 
 Inside the models all is SI: m, rad, Pa, N*m/rad, kg/m^3.
 """
@@ -12,7 +12,6 @@ from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from pydantic_core import CoreSchema, core_schema
 
-from springcad.materials.data import MATERIALS, Material, Value, material
 from springcad.materials.process import PROCESSES, Process, process
 from springcad.spec.rules import Rule, Section, broken_rules, parts_of
 from springcad.spec.text import listing, printable, unknown
@@ -88,6 +87,31 @@ class OneOf:
         return {"type": "string", "enum": list(self.names)}
 
 
+@dataclass(frozen=True)
+class Count:
+    """Type annotation of a whole number from ``low`` to ``high``; ``words`` stand as typed."""
+
+    low: int
+    high: int
+    words: tuple[str, ...] = ()
+
+    def read(self, value: object) -> int | str:
+        if isinstance(value, str) and value in self.words:
+            return value
+        if not isinstance(value, int) or isinstance(value, bool):
+            raise ValueError(f"must be {listing(('a whole number', *self.words))}")
+        if not self.low <= value <= self.high:
+            raise ValueError(f"must be from {self.low} to {self.high}, is {value}")
+        return value
+
+    def __get_pydantic_core_schema__(self, *_: object) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, *_: object) -> dict[str, Any]:
+        whole = {"type": "integer", "minimum": self.low, "maximum": self.high}
+        return {"anyOf": [{"enum": list(self.words)}, whole]} if self.words else whole
+
+
 Length: TypeAlias = Annotated[float, Quantity(LENGTH, "0.001 mm", "10 m")]
 LengthOrZero: TypeAlias = Annotated[float, Quantity(LENGTH, "0 mm", "10 m")]
 AutoLength: TypeAlias = Annotated[
@@ -110,33 +134,6 @@ def angle(low: str, high: str) -> Quantity:
 def default(text: str) -> Any:
     """A default in the form in which it stands in a spec; it is validated like any other value."""
     return Field(default=text)
-
-
-class MaterialSpec(Section):
-    """What the part is made of, and the stress it is designed for."""
-
-    name: Annotated[str, OneOf("material", tuple(MATERIALS))]
-    """Material; `springcad materials` lists them with their values and sources."""
-    design_stress: Stress
-    """Stress amplitude that the flexures reach at the design deflection, in MPa."""
-    elastic_modulus: ElasticModulus | None = None
-    """Elastic modulus in GPa, in place of the table's."""
-    poisson_ratio: PoissonRatio | None = None
-    """Poisson's ratio, in place of the table's."""
-    density: Density | None = None
-    """Density in kg/m^3 or g/cm^3, in place of the table's."""
-    yield_strength: Stress | None = None
-    """Yield strength in MPa, in place of the table's."""
-
-    @property
-    def values(self) -> Material:
-        """The table's values, each replaced by the user's where the spec gives one."""
-        own: dict[str, Any] = {
-            key: Value(number, "spec")
-            for key in ("elastic_modulus", "poisson_ratio", "density", "yield_strength")
-            if (number := getattr(self, key)) is not None
-        }
-        return replace(material(self.name), **own)
 
 
 class ProcessSpec(Section):

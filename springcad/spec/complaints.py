@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import takewhile
 from typing import Any
 
 from pydantic import BaseModel
@@ -67,7 +68,8 @@ def _faults(cause: FaultsError, path: Path, tree: Tree) -> Iterator[Problem]:
             yield where.problem(message)
         else:
             place = nearest_place(tree.values, (*path, *where))
-            yield place.problem(message, dotted(path))
+            keys = takewhile(lambda key: not key.isdigit(), where)
+            yield place.problem(message, dotted((*path, *keys)))
 
 
 def _loc(error: ErrorDetails) -> Path:

@@ -53,6 +53,18 @@ class Pair:
     texts: tuple[object, object]
     places: tuple[Where, Where]
 
+    def numbers(
+        self, columns: tuple[Column, Column], faults: list[Fault]
+    ) -> tuple[float, float] | None:
+        """The point in SI; None, with the faults, where a text is no such quantity."""
+        known, numbers = len(faults), []
+        for column, text, place in zip(columns, self.texts, self.places, strict=True):
+            try:
+                numbers.append(float(column.quantity.read(text)))
+            except ValueError as error:
+                faults.append((place, f"{column.name}: {error}"))
+        return (numbers[0], numbers[1]) if len(faults) == known else None
+
 
 _Cell: TypeAlias = tuple[str, Place]
 
@@ -69,6 +81,13 @@ def read_pairs(path: FilePath, columns: tuple[Column, Column], faults: list[Faul
         text = read_text(path, shown)
     except SpecError as error:
         raise FaultsError([((), f"{shown}: {p.message}") for p in error.problems]) from error
+    return pairs_in(text, shown, columns, faults)
+
+
+def pairs_in(
+    text: str, shown: str, columns: tuple[Column, Column], faults: list[Fault]
+) -> list[Pair]:
+    """The same for the text of a file; ``shown`` is its name in messages."""
     lines = list(_lines(text, shown, faults))
     if not lines:
         message = f"holds no line with the columns, {columns[0].title}, {columns[1].title}"

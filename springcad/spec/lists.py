@@ -1,4 +1,4 @@
-"""Values of a spec that are lists of numbers with units: coefficients, and bounds."""
+"""Values of a spec that are lists of numbers with units: coefficients, bounds, and ranges."""
 
 from __future__ import annotations
 
@@ -78,14 +78,51 @@ class Bounds:
             return number, number
         if len(value) != 2:
             raise ValueError("must be one value, or two bounds [low, high]")
-        low, high = (float(self.quantity.read(item)) for item in value)
-        if not low < high:
-            raise ValueError("must have its lower bound first")
-        return low, high
+        return _low_and_high(value, self.quantity, "must have its lower bound first")
 
     def __get_pydantic_core_schema__(self, *_: object) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.read)
 
     def __get_pydantic_json_schema__(self, *_: object) -> dict[str, Any]:
-        one = {"type": "string", "pattern": self.quantity.dimension.pattern}
-        return {"anyOf": [one, {"type": "array", "items": one, "minItems": 2, "maxItems": 2}]}
+        return {"anyOf": [_one_schema(self.quantity), _pair_schema(self.quantity)]}
+
+
+@dataclass(frozen=True)
+class Range:
+    """Type annotation of a range ``[10 mm, 45 mm]`` of a quantity, all of which is wanted.
+
+    The value in the model is (least, greatest), SI; ``words`` of the quantity stand as typed.
+    """
+
+    quantity: Quantity
+
+    def read(self, value: object) -> tuple[float, float] | str:
+        """The range in SI; ValueError in words for the user."""
+        if isinstance(value, str) and value in self.quantity.words:
+            return value
+        if not isinstance(value, list) or len(value) != 2:
+            words = "".join(f", or {word}" for word in self.quantity.words)
+            raise ValueError(f"must be a list of two values, [least, greatest]{words}")
+        return _low_and_high(value, self.quantity, "must have its least value first")
+
+    def __get_pydantic_core_schema__(self, *_: object) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, *_: object) -> dict[str, Any]:
+        pair, words = _pair_schema(self.quantity), list(self.quantity.words)
+        return {"anyOf": [{"enum": words}, pair]} if words else pair
+
+
+def _low_and_high(items: list[object], quantity: Quantity, fault: str) -> tuple[float, float]:
+    low, high = (float(quantity.read(item)) for item in items)
+    if not low < high:
+        raise ValueError(fault)
+    return low, high
+
+
+def _one_schema(quantity: Quantity) -> dict[str, Any]:
+    return {"type": "string", "pattern": quantity.dimension.pattern}
+
+
+def _pair_schema(quantity: Quantity) -> dict[str, Any]:
+    return {"type": "array", "items": _one_schema(quantity), "minItems": 2, "maxItems": 2}

@@ -77,18 +77,10 @@ class CurvePoints:
         """The numbers; pairs that are no point, or not in their place, go to ``faults``."""
         points: list[Point] = []
         for pair in pairs:
-            known = len(faults)
-            numbers = []
-            for column, text, place in zip(
-                (self.over, self.of), pair.texts, pair.places, strict=True
-            ):
-                try:
-                    numbers.append(float(column.quantity.read(text)))
-                except ValueError as error:
-                    faults.append((place, f"{column.name}: {error}"))
-            if len(faults) > known:
+            point = pair.numbers((self.over, self.of), faults)
+            if point is None:
                 continue
-            point, before = (numbers[0], numbers[1]), points[-1] if points else None
+            before, known = points[-1] if points else None, len(faults)
             if message := self._out_of_order(before, point):
                 faults.append((pair.places[0], message))
             elif message := self.judge(before, point):

@@ -62,13 +62,13 @@ def read_spec(path: FilePath, overrides: Sequence[str] = ()) -> Spec:
     for override in overrides:
         _put(tree, override)
     if () in tree.refused:
-        raise _spec_error(tree.problems)
+        raise spec_error(tree.problems)
     if not isinstance(tree.data, dict):
         what = "a spec is a list of keys with values, such as `kind: rotary-flexure`"
-        raise _spec_error([*tree.problems, tree.values[()].problem(what)])
+        raise spec_error([*tree.problems, tree.values[()].problem(what)])
     model = _validated(tree, path.parent)
     if tree.problems or model is None:
-        raise _spec_error(tree.problems)
+        raise spec_error(tree.problems)
     return Spec(
         path=shown,
         kind=model.kind,
@@ -78,6 +78,20 @@ def read_spec(path: FilePath, overrides: Sequence[str] = ()) -> Spec:
         sha256=identity(model),
         places=tree.values,
     )
+
+
+def restored_spec(raw: Mapping[str, Any], shown: str) -> Spec:
+    """The spec that a report holds, its files put in place; ``shown`` is the report's name.
+
+    Raises SpecError with every problem, all of them at the beginning of the report.
+    """
+    top = Place(shown, 1, 1)
+    tree = Tree(data=dict(raw), keys={(): top}, values={(): top})
+    model = _validated(tree, FilePath())
+    if model is None:
+        raise spec_error(tree.problems)
+    sha256 = identity(model)
+    return Spec(shown, model.kind, model.name, model, tree.data, sha256, tree.values)
 
 
 def identity(model: CommonSpec) -> str:
@@ -100,7 +114,7 @@ def _rounded(value: Any) -> Any:
     return float(f"{value:.12g}") if isinstance(value, float) else value
 
 
-def _spec_error(problems: Iterable[Problem]) -> SpecError:
+def spec_error(problems: Iterable[Problem]) -> SpecError:
     """The problems in order; beyond the first hundred only their number."""
     ordered = sorted(dict.fromkeys(problems), key=_order)
     shown = ordered[:MAX_PROBLEMS]

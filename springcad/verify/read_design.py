@@ -38,6 +38,7 @@ def read_design(path: Path) -> tuple[WrittenDesign, Check]:
         design=_mapping(report, "design"),
         response=_mapping(report, "response"),
         contours=_contours(report_path.parent, name, files),
+        spec=_mapping(report, "spec"),
     )
     return design, _unchanged(report_path.parent)
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from roller_cases import CANTILEVER, DEGREE, PAPER
 
+from springcad.kinds.roller_cam.joint import Cantilever
 from springcad.kinds.roller_cam.part import (
     exact_part,
     in_tip_frame,
@@ -18,6 +19,7 @@ from springcad.kinds.roller_cam.part import (
     roller_curvature,
 )
 from springcad.kinds.roller_cam.tip import (
+    TipModel,
     carried,
     exact_tip,
     linear_carried,
@@ -27,6 +29,7 @@ from springcad.kinds.roller_cam.tip import (
 from springcad.mechanics.elastic_part import ElasticPart
 from springcad.mechanics.plane import rotated
 
+IN_A_POCKET = replace(CANTILEVER, pocket_fillet=1e-3)
 POINT = np.array([[3.0e-3, 5.3e-3], [3.9e-3, 8.6e-3], [1e-3, 4e-3]])
 FORCE = np.array([[370.0, -295.0], [14.0, -1.0], [0.0, -400.0]])
 MODELS = {"linear": (linear_tip, linear_carried), "exact": (exact_tip, carried)}
@@ -43,13 +46,14 @@ def test_stiffness_of_the_paper_s_cantilever() -> None:
     assert small[0, 1] / with_shear == pytest.approx(1375.17e3, rel=1e-5)
 
 
+@pytest.mark.parametrize("cantilever", [CANTILEVER, IN_A_POCKET], ids=["plates", "pocket"])
 @pytest.mark.parametrize("model", MODELS)
-def test_a_force_does_the_work_that_is_stored(model: str) -> None:
+def test_a_force_does_the_work_that_is_stored(model: str, cantilever: Cantilever) -> None:
     """Castigliano: the energy grows by the force times the way of its point of action.
 
     The force is followed in the frame of the tip, where its point of action is one material point.
     """
-    tip, step = MODELS[model][1](CANTILEVER), 1e-4
+    tip, step = MODELS[model][1](cantilever), 1e-4
 
     def state(scale: float) -> tuple[np.ndarray, np.ndarray]:
         found = tip(POINT, scale * FORCE)
@@ -61,15 +65,28 @@ def test_a_force_does_the_work_that_is_stored(model: str) -> None:
     np.testing.assert_allclose(more - less, work, rtol=1e-7)
 
 
+@pytest.mark.parametrize("cantilever", [CANTILEVER, IN_A_POCKET], ids=["plates", "pocket"])
 @pytest.mark.parametrize("model", MODELS)
-def test_integrated_from_the_clamp_or_from_the_tip(model: str) -> None:
-    in_space, in_tip = (make(CANTILEVER) for make in MODELS[model])
+def test_integrated_from_the_clamp_or_from_the_tip(model: str, cantilever: Cantilever) -> None:
+    in_space, in_tip = (make(cantilever) for make in MODELS[model])
     state = in_space(POINT, FORCE)
     again = in_tip(in_tip_frame(POINT, state), rotated(FORCE, -state.rotation))
     np.testing.assert_allclose(again.displacement, state.displacement, atol=1e-14)
     np.testing.assert_allclose(again.rotation, state.rotation, rtol=1e-10)
     np.testing.assert_allclose(again.energy, state.energy, rtol=1e-10)
     np.testing.assert_allclose(again.stress, state.stress, rtol=1e-10)
+
+
+@pytest.mark.parametrize("tip", [linear_tip, exact_tip])
+def test_in_a_pocket_the_clamp_turns_by_its_moment(tip: Callable[[Cantilever], TipModel]) -> None:
+    """Two springs in a row: the clamp adds c l² to the compliance of the tip."""
+    at_tip, small = np.zeros((1, 2)), np.array([[0.0, -1e-3]])
+    clamped, turning = (tip(c)(at_tip, small) for c in (CANTILEVER, IN_A_POCKET))
+    turn = IN_A_POCKET.root_compliance * -1e-3 * CANTILEVER.length
+    assert turning.rotation[0] - clamped.rotation[0] == pytest.approx(turn, rel=1e-8)
+    sunk = turning.displacement[0, 1] - clamped.displacement[0, 1]
+    assert sunk == pytest.approx(turn * CANTILEVER.length, rel=1e-6)
+    assert turning.stress[0] == pytest.approx(clamped.stress[0], rel=1e-6)
 
 
 def test_a_slender_bar_under_a_small_force_is_linear() -> None:

@@ -373,9 +373,14 @@ PROBLEMS = {
     ),
     "holes without web": (
         LINEAR,
-        ["mount.hole_diameter=9.9 mm"],
+        ["mount.hole_diameter=9.9 mm", "mount.holes=1"],
         "mount.hole_diameter: a web beside "
         "the holes of 0.05 mm is below the 0.3 mm that wire-edm can make",
+    ),
+    "mounts that overlap": (
+        LINEAR,
+        ["mount.height=18 mm"],
+        "mount.height: must be at most 17.9 mm, twice the roller's offset",
     ),
     "stepwise without method": (
         LINEAR,

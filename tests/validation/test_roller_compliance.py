@@ -115,6 +115,37 @@ def test_a_mount_in_a_pocket_softens_the_cantilever_by_a_fifth() -> None:
     assert pocket[1, 1] / plates[1, 1] == pytest.approx(1.2, abs=0.03)
 
 
+@pytest.mark.parametrize(
+    ("fillet", "height"), [(0.1e-3, 4.9e-3), (1e-3, 4.9e-3), (2e-3, 4.9e-3), (1e-3, 3e-3)]
+)
+def test_in_a_pocket_the_element_turns_about_its_root_as_the_beam_does(
+    fillet: float, height: float
+) -> None:
+    """What the pocket adds at the profile is c a aᵀ, a across the arm to the root."""
+    profile, rows = rigid_profile(), [10, 50, 85]
+    beam = replace(JOINT.cantilever, height=height, pocket_fillet=fillet)
+    profile = replace(profile, joint=replace(JOINT, cantilever=beam))
+    points, normals = profile.flank.points[rows], profile.flank.normals[rows]
+    plates, pocket = (
+        element_compliance(
+            element_model(
+                element_geometry(profile, dimensions(mounting=mounting, root_fillet=fillet)), COARSE
+            ),
+            points,
+            normals,
+            np.full(3, STRIP),
+        )
+        for mounting in ("plates", "pocket")
+    )
+    arm = np.column_stack([-points[:, 1], points[:, 0] + beam.length])
+    turning = beam.root_compliance * arm[:, :, None] * arm[:, None, :]
+    added = pocket - plates
+    np.testing.assert_allclose(added, turning, rtol=0.0, atol=0.04 * np.abs(added).max())
+    clamped = replace(beam, pocket_fillet=None)
+    ours = beam_compliance(beam, points) - beam_compliance(clamped, points)
+    np.testing.assert_allclose(ours, turning, rtol=1e-9)
+
+
 def test_compliance_over_the_angle_is_that_over_the_place() -> None:
     profile = rigid_profile()
     found = profile_compliance(profile, dimensions())

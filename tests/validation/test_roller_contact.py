@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from roller_element_cases import DEGREE, JOINT, clamped, dimensions, rigid_profile
 from scipy.integrate import simpson
 
+from springcad.geometry.biarc import exact_polyline
 from springcad.kinds.roller_cam.contact_compliance import profile_compliance
 from springcad.kinds.roller_cam.contact_model import (
     contact_part_stress,
@@ -16,9 +19,11 @@ from springcad.kinds.roller_cam.contact_model import (
     side_stress,
     torque,
 )
-from springcad.kinds.roller_cam.element import element_geometry
+from springcad.kinds.roller_cam.contact_pad import contact_pressure
+from springcad.kinds.roller_cam.element import element_geometry, element_profile
 from springcad.kinds.roller_cam.element_mesh import COARSE, FINE, Density
 from springcad.kinds.roller_cam.forward import forward
+from springcad.mechanics.contact import contact_modulus
 
 
 def test_the_torque_does_the_work_that_the_element_stores() -> None:
@@ -50,6 +55,41 @@ def test_beam_with_the_elements_compliance_is_confirmed_over_the_whole_stroke() 
     beam = forward(JOINT, profile.curve, angle, compliance=found.at_place)
     np.testing.assert_allclose(contact, beam.torque, rtol=6e-3)
     assert contact[-1] > profile.torque[np.searchsorted(profile.flank.angle, angle[-1])]
+
+
+def test_beam_on_a_turning_root_is_confirmed_for_a_mount_in_a_pocket() -> None:
+    """The pocket takes a tenth of the torque of a profile that is made for plates."""
+    profile, angle = rigid_profile(), np.array([0.7, 1.9]) * DEGREE
+    size = dimensions(3e-3, mounting="pocket")
+    beam = replace(JOINT.cantilever, pocket_fillet=size.root_fillet)
+    profile = replace(profile, joint=replace(JOINT, cantilever=beam))
+    element = element_contact(element_geometry(profile, size), JOINT.roller, COARSE)
+    presses = press_through(element, angle)
+    found = profile_compliance(profile, size)
+    stroke = forward(profile.joint, profile.curve, angle, compliance=found.at_place)
+    contact = [torque(element, press) for press in presses]
+    np.testing.assert_allclose(contact, stroke.torque, rtol=2e-3)
+    force = [float(np.hypot(*press.force)) for press in presses]
+    np.testing.assert_allclose(force, stroke.normal_force, rtol=2e-3)
+    plates = dimensions(3e-3)
+    clamped = forward(
+        JOINT, profile.curve, angle, compliance=profile_compliance(rigid_profile(), plates).at_place
+    )
+    assert np.all(stroke.torque < 0.95 * clamped.torque)
+
+
+def test_pressure_of_a_block_is_that_of_hertz_where_the_curvature_changes_little() -> None:
+    profile, size = rigid_profile(), dimensions(3e-3)
+    geometry = element_geometry(profile, size)
+    element = element_contact(geometry, JOINT.roller, COARSE)
+    (press,) = press_through(element, [1.2 * DEGREE])
+    outline = exact_polyline(element_profile(geometry).outer)
+    beam = JOINT.cantilever
+    modulus = contact_modulus(*(beam.elastic_modulus, beam.poisson_ratio) * 2)
+    compliance = profile_compliance(profile, size).at_place
+    stroke = forward(JOINT, profile.curve, np.array([press.angle]), compliance=compliance)
+    hertz = float(stroke.pressure(beam.width, modulus)[0])
+    assert contact_pressure(element, press, outline) == pytest.approx(hertz, rel=0.01)
 
 
 def test_stress_beyond_the_notch_is_the_beams() -> None:

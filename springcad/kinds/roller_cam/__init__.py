@@ -14,9 +14,19 @@ if TYPE_CHECKING:
 
     from springcad.result import Check, Judgement, Progress, Result
     from springcad.spec.source import Spec
+    from springcad.spec.torque_curve import TorqueFile
     from springcad.written import WrittenDesign
 
-__all__ = ["SPEC_MODEL", "TEMPLATE", "check_spec", "design_spec", "judge_decks", "judge_design"]
+__all__ = [
+    "SPEC_MODEL",
+    "TEMPLATE",
+    "check_spec",
+    "compensate_design",
+    "design_spec",
+    "judge_decks",
+    "judge_design",
+    "next_spec",
+]
 
 
 def check_spec(spec: Spec) -> tuple[Check, ...]:
@@ -39,6 +49,22 @@ def judge_design(design: WrittenDesign, progress: Progress) -> Judgement:
     from springcad.kinds.roller_cam.judge import judge_joint
 
     return judge_joint(design, progress)
+
+
+def next_spec(design: WrittenDesign) -> Spec:
+    """The spec of the design that a correction of this one gives, under its next name."""
+    from springcad.kinds.roller_cam.correction import next_spec
+
+    return next_spec(design)
+
+
+def compensate_design(
+    spec: Spec, design: WrittenDesign, curve: TorqueFile, progress: Progress
+) -> Result:
+    """The next design after a torque curve of this one; InfeasibleError when there is none."""
+    from springcad.kinds.roller_cam.design import redesign_joint
+
+    return redesign_joint(spec, design, curve, progress)
 
 
 def judge_decks(design: WrittenDesign) -> Mapping[str, str]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.remedies import contact_angle_remedy, interference_remedy
 from springcad.mechanics.contact import contact_modulus
@@ -18,6 +19,8 @@ STRESS_TOLERANCE = 0.01
 """Stress counts as met within this share: the closed forms allow for as much."""
 INTERFERENCE = 2e-6
 """Depth to which the calculated roller may cut into the profile beside its contact (m)."""
+LARGEST_CORRECTION = 2.0
+"""Factor of the law's angles beyond which a curve from elsewhere is hardly of the same joint."""
 PRESSURE_OVER_ULTIMATE = 1.6
 """Hertzian pressure over tensile strength that hardened steel bears statically (common limit)."""
 
@@ -28,10 +31,32 @@ def joint_checks(made: MadeJoint) -> tuple[Check, ...]:
 
 
 def torque_errors(made: MadeJoint) -> tuple[float, float]:
-    """Largest |τ/τ_law − 1| over the stroke, and |τ − τ_law| over the full torque."""
-    wanted = made.law.torque(made.stroke.angle)
+    """Largest |τ/τ_law − 1| over the stroke, and |τ − τ_law| over the full torque.
+
+    With a correction at the angles expected where its curve is from.
+    """
+    wanted = made.law.torque(made.expected_angle)
     away = np.abs(made.stroke.torque - wanted)
     return float(np.max(away / wanted)), float(np.max(away) / wanted[-1])
+
+
+def first_contact(made: MadeJoint) -> float:
+    """Angle from which on the roller touches where the law asks for it [rad].
+
+    The first contacts of a law without slope are as high as the axis of the roller, and there the
+    mirrored element begins.
+    """
+    return float(made.compensated.profile.angle_of(np.array([made.drawn.upper]))[0])
+
+
+def uncertain_until(made: MadeJoint) -> float | None:
+    """Last angle at which the torque misses the law by more than ``TORQUE_TOLERANCE`` of itself.
+
+    From 2.6 % of the stroke on; None where there is none.
+    """
+    wanted = made.law.torque(made.expected_angle)
+    missed = np.flatnonzero(np.abs(made.stroke.torque / wanted - 1.0) > TORQUE_TOLERANCE)
+    return float(made.expected_angle[missed[-1]]) if len(missed) else None
 
 
 def pressure(made: MadeJoint) -> np.ndarray:
@@ -43,14 +68,20 @@ def pressure(made: MadeJoint) -> np.ndarray:
 
 def _torque(made: MadeJoint) -> Iterator[Check]:
     relative, absolute = torque_errors(made)
+    torque = "torque"
     source = "forward analysis of the drawn profile, beam and contact part elastic"
     remedy = "set compensation to compliance, or make the contact part thicker"
+    if made.correction is not None:
+        torque = "expected torque"
+        source = "given curve, its angles changed by what the forward analyses differ"
+        remedy = "give a smoother curve with more points; or correct this design in its turn"
+        yield from _correction(made.correction)
     yield check(
-        "torque against the law, over the full torque", absolute, "<=", TORQUE_TOLERANCE, "1",
+        f"{torque} against the law, over the full torque", absolute, "<=", TORQUE_TOLERANCE, "1",
         source=source, remedy=remedy,
     )  # fmt: skip
     yield check(
-        "torque against the law, relative, from 2.6 % of the stroke on", relative, "<=",
+        f"{torque} against the law, relative, from 2.6 % of the stroke on", relative, "<=",
         TORQUE_TOLERANCE, "1", source=source, remedy=remedy, otherwise="warn",
     )  # fmt: skip
     yield check(
@@ -58,6 +89,16 @@ def _torque(made: MadeJoint) -> Iterator[Check]:
         made.drawn.torque_change, "<=", made.spec.torque_tolerance, "1",
         source=f"drawn against designed profile; arcs within {1e6 * made.drawn.tolerance:.2g} um",
         remedy="raise torque_tolerance: no drawing is finer", otherwise="warn",
+    )  # fmt: skip
+
+
+def _correction(correction: Correction) -> Iterator[Check]:
+    ratio = correction.ratio(np.linspace(correction.ratio.first, correction.ratio.last))
+    yield check(
+        "correction of the law's angles, largest factor either way",
+        float(np.max(np.maximum(ratio, 1.0 / ratio))), "<=", LARGEST_CORRECTION, "1",
+        source=f"curve of {correction.before}, law over curve at equal torque; all corrections",
+        remedy="look whether the curve begins at rest and is of this design", otherwise="warn",
     )  # fmt: skip
 
 

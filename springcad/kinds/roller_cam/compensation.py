@@ -45,6 +45,9 @@ SETTLED = 1e-3
 """Updates end when the largest relative error of the torque is below this."""
 MOST_UPDATES = {"none": 0, "shift": 1, "multiplicative": 6, "compliance": 6}
 DEGREE = 7
+SMALL_RESIDUAL, MORE_RESIDUAL = 2e-4, 1.1
+"""Root mean square of a relative angle that is not worth another degree, and how much more of it
+than the highest degree leaves."""
 _FADE = 0.05
 """Share of the series' range over which its slope fades beyond its end."""
 _SIMULATED = 80
@@ -230,25 +233,65 @@ def pseudo_law(law: Law, ratio: AngleRatio) -> Law:
     )
 
 
+def simplest(law: Law, ratio: AngleRatio | None, curve: TorqueCurve) -> AngleRatio:
+    """The same with no more terms than the curve is worth, for one that is of a drawing or noisy.
+
+    Of the degrees whose residual is small, or not much larger than that of the highest, the least:
+    arcs of a drawing waver, and a profile must not follow that.
+    """
+    wanted, got = _angles_of_equal_torque(law, curve)
+    last = np.ones_like(wanted) if ratio is None else ratio(wanted)
+    tries = [_fitted(wanted, last * wanted / got, degree) for degree in range(DEGREE + 1)]
+    residuals = [_rms(found(wanted) * got / (last * wanted) - 1.0) for found in tries]
+    enough = max(SMALL_RESIDUAL, MORE_RESIDUAL * residuals[-1])
+    return next(found for found, left in zip(tries, residuals, strict=True) if left <= enough)
+
+
+def _rms(values: Floats) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def expected_angle(law: Law, given: TorqueCurve, before: TorqueCurve, after: TorqueCurve) -> Floats:
+    """Angles at which the torques of ``after`` are expected where ``given`` is from (A,) [rad].
+
+    ``given`` and ``before`` are of one profile, from elsewhere and by our own model. At equal
+    torque their angles, from the end of the dead zone, have a ratio; it is taken to be the same
+    for the profile of which our model says ``after`` (A torques, within those of the law and its
+    continuation). Beyond the torques of ``given`` it stays what it is at its ends.
+    """
+    wanted, got = _angles_of_equal_torque(law, given)
+    place, ours = _angles_of_equal_torque(law, before)
+    angle_of, _ = _inverse(law)
+    order = np.argsort(place)  # the torque of a drawing may waver
+    then = wanted * np.interp(wanted, place[order], (ours / place)[order])
+    ratio = np.interp(angle_of(after.torque), wanted, got / then)
+    return np.asarray(law.dead_zone + (after.angle - law.dead_zone) * ratio)
+
+
 def _angles_of_equal_torque(law: Law, curve: TorqueCurve) -> tuple[Floats, Floats]:
     """Angles at which law and curve have the torques of the curve, from the end of the dead zone.
 
     Torques beyond those of the law and its continuation are left out.
     """
+    angle_of, (least, most) = _inverse(law)
+    got = curve.angle - law.dead_zone
+    within = (curve.torque > least) & (curve.torque < most) & (got > 0.0)
+    return np.asarray(angle_of(curve.torque[within])), got[within]
+
+
+def _inverse(law: Law) -> tuple[CubicSpline, tuple[float, float]]:
+    """Angle from the end of the dead zone over torque, and between which torques it is known."""
     stroke = law.deflection - law.dead_zone
     x = np.linspace(0.0, (1.0 + OVERRUN) * stroke, _DENSE)
     torque = law.torque(law.dead_zone + x)
     rises = np.concatenate([[True], torque[1:] > np.maximum.accumulate(torque)[:-1]])
-    got = curve.angle - law.dead_zone
-    within = (curve.torque > torque[1]) & (curve.torque < torque[-1]) & (got > 0.0)
-    wanted = CubicSpline(torque[rises], x[rises])(curve.torque[within])
-    return np.asarray(wanted), got[within]
+    return CubicSpline(torque[rises], x[rises]), (float(torque[1]), float(torque[-1]))
 
 
-def _fitted(angle: Floats, ratio: Floats) -> AngleRatio:
+def _fitted(angle: Floats, ratio: Floats, degree: int = DEGREE) -> AngleRatio:
     """Least-squares series through ratios (P,); of a lower degree through few."""
     first, last = float(angle.min()), float(angle.max())
     domain = [first, math.hypot(last, first)]
-    degree = min(DEGREE, (len(angle) - 1) // 3)
+    degree = min(degree, (len(angle) - 1) // 3)
     series = Chebyshev.fit(np.hypot(angle, first), ratio, degree, domain=domain)
     return AngleRatio(tuple(float(c) for c in series.coef), first, last)

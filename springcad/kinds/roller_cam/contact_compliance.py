@@ -45,7 +45,7 @@ _PATCH_POINTS = 48
 
 @dataclass(frozen=True)
 class ProfileCompliance:
-    """What the element yields beyond the clamped beam, where the roller touches its profile.
+    """What the element yields beyond its beam, where the roller touches its profile.
 
     Attributes:
         angle: at which the roller touches there, ascending (P,) [rad].
@@ -79,7 +79,7 @@ class ProfileCompliance:
 def profile_compliance(
     profile: ContactProfile, dimensions: ElementDimensions, density: Density = COARSE
 ) -> ProfileCompliance:
-    """Compliance of the element with this profile beyond that of the clamped beam.
+    """Compliance of the element with this profile beyond that of its beam.
 
     First contacts that are left out (``first_place``) are left out here too.
 
@@ -142,10 +142,10 @@ def element_compliance(model: Model, points: Floats, normals: Floats, strip: Flo
 def beam_compliance(beam: Cantilever, points: Floats) -> Floats:
     """Compliance (P, 2, 2) [m/N] at points (P, 2) carried rigidly by the tip of the beam.
 
-    Bending, shear (5/6 of the section) and stretch; the force at (x, y) has the moment
-    M = x F_y - y F_x about the tip, and moves with its rotation.
+    Bending, shear (5/6 of the section), stretch and the turning of the clamp; the force at (x, y)
+    has the moment M = x F_y - y F_x about the tip, and moves with its rotation.
     """
-    length, bending = beam.length, beam.bending_stiffness
+    length, bending, root = beam.length, beam.bending_stiffness, beam.root_compliance
     section = beam.width * beam.height
     tip = np.array(
         [
@@ -153,10 +153,11 @@ def beam_compliance(beam: Cantilever, points: Floats) -> Floats:
             [
                 0.0,
                 length**3 / (3.0 * bending)
-                + length / (SHEAR_CORRECTION * beam.shear_modulus * section),
-                length**2 / (2.0 * bending),
+                + length / (SHEAR_CORRECTION * beam.shear_modulus * section)
+                + root * length**2,
+                length**2 / (2.0 * bending) + root * length,
             ],
-            [0.0, length**2 / (2.0 * bending), length / bending],
+            [0.0, length**2 / (2.0 * bending) + root * length, length / bending + root],
         ]
     )
     carry = np.zeros((len(points), 3, 2))

@@ -13,9 +13,12 @@ from springcad.geometry.outline_ops import profile_area, profile_faults
 from springcad.kinds.roller_cam.compensation import (
     JUDGED_FROM,
     Compensated,
+    TorqueCurve,
     compensate,
+    expected_angle,
     pseudo_law,
 )
+from springcad.kinds.roller_cam.correction import Correction, correction_of, followed_law
 from springcad.kinds.roller_cam.curve import curve_through
 from springcad.kinds.roller_cam.drawn import (
     FINEST,
@@ -32,7 +35,7 @@ from springcad.kinds.roller_cam.element import (
     element_profile,
     first_place,
 )
-from springcad.kinds.roller_cam.feasibility import require_feasible
+from springcad.kinds.roller_cam.feasibility import Case, require_feasible
 from springcad.kinds.roller_cam.forward import (
     Stroke,
     forward,
@@ -55,6 +58,8 @@ from springcad.kinds.roller_cam.tip import linear_tip
 from springcad.mechanics.conjugate import until
 from springcad.result import Progress, Result
 from springcad.spec.source import Spec
+from springcad.spec.torque_curve import TorqueFile
+from springcad.written import WrittenDesign
 
 Floats = NDArray[np.float64]
 
@@ -77,31 +82,49 @@ def design_joint(spec: Spec, progress: Progress) -> Result:
     return summarise(spec, make_joint(roller_spec(spec.model), progress))
 
 
-def make_joint(spec: RollerCamSpec, progress: Progress) -> MadeJoint:
+def redesign_joint(
+    spec: Spec, written: WrittenDesign, curve: TorqueFile, progress: Progress
+) -> Result:
+    """The written design with the profile that its curve from elsewhere asks for.
+
+    Raises:
+        SpecError: the curve will not do.
+        IncompleteDesignError: the report lacks something.
+        InfeasibleError: no element can give the pseudo law.
+    """
+    model = roller_spec(spec.model)
+    return summarise(spec, make_joint(model, progress, correction_of(written, model, curve)))
+
+
+def make_joint(
+    spec: RollerCamSpec, progress: Progress, correction: Correction | None = None
+) -> MadeJoint:
     """The joint itself, without words about it.
 
     Raises:
         InfeasibleError: no element can give the law; with changes that were tried and that work.
     """
-    case = case_of(spec)
+    law, case = group_law(spec), _case(spec, correction)
+    followed = case.law
     feasibility = require_feasible(case)
-    law = group_law(spec)
-    if spec.cantilever.objective is None:
+    if correction is not None:
+        joint = correction.joint
+    elif spec.cantilever.objective is None:
         joint = joint_of(spec)
     else:
         progress("sizing the cantilever")
         joint = size_cantilever(spec, law).joint
-    dimensions = _dimensions(spec)
+    dimensions = _dimensions(spec) if correction is None else correction.dimensions
     progress("finding the profile")
     try:
-        compensated = compensate(joint, law, dimensions, spec.compensation)
+        compensated = compensate(joint, followed, dimensions, spec.compensation)
     except InfeasibleError as error:
         progress("no profile: trying what would help")
         raise error.with_remedies(*synthesis_remedies(case)) from error
     stepwise = None
     if spec.method == "stepwise":
         progress("stepping along the profile")
-        compensated, stepwise = _stepped(spec, law, compensated)
+        compensated, stepwise = _stepped(spec, followed, compensated)
     profile = compensated.profile
     geometry = element_geometry(profile, dimensions)
     element = element_profile(geometry)
@@ -110,31 +133,52 @@ def make_joint(spec: RollerCamSpec, progress: Progress) -> MadeJoint:
         claim = f"faults in the outline of the element ({'; '.join(faults)})"
         raise InfeasibleError(claim, len(faults), 0.0, "1")
     progress("turning the joint through its stroke")
-    angles = _angles(law)
+    angles = _angles(followed)
     sensitivity = offset_sensitivity(joint, profile.curve, angles)
-    drawn, stroke = _drawn(spec, law, compensated, geometry, sensitivity)
+    drawn, stroke = _drawn(spec, followed, compensated, geometry, sensitivity)
     friction = None
     if spec.friction > 0.0:
-        flank = until(profile.flank, law.deflection * (1.0 + _ROUND_OFF))
+        flank = until(profile.flank, followed.deflection * (1.0 + _ROUND_OFF))
         friction = roller_friction(joint, profile.curve, flank, spec.friction)
     density = spec.material.values.density.value
     return MadeJoint(
         spec=spec,
         case=case,
         law=law,
+        correction=correction,
+        followed=followed,
         feasibility=feasibility,
         joint=joint,
         compensated=compensated,
-        stepwise_distance=_stepwise_distance(spec, joint, law) if stepwise is None else stepwise,
+        stepwise_distance=(
+            _stepwise_distance(spec, joint, followed) if stepwise is None else stepwise
+        ),
         geometry=geometry,
         element=element,
         drawn=drawn,
         stroke=stroke,
+        expected_angle=_expected(law, stroke, correction),
         gap=least_gap(joint, drawn.curve, forward(joint, drawn.curve, angles)),
         sensitivity=sensitivity,
         friction=friction,
         mass=profile_area(element) * joint.cantilever.width * density,
     )
+
+
+def _case(spec: RollerCamSpec, correction: Correction | None) -> Case:
+    """What the closed forms judge: the law, or the pseudo law and the joint of a correction."""
+    case = case_of(spec)
+    if correction is None:
+        return case
+    law = followed_law(case.law, correction)
+    return replace(case, law=law, deflection=law.deflection, joint=correction.joint, is_sized=False)
+
+
+def _expected(law: Law, stroke: Stroke, correction: Correction | None) -> Floats:
+    if correction is None:
+        return stroke.angle
+    after = TorqueCurve(stroke.angle, stroke.torque)
+    return expected_angle(law, correction.given, correction.ours, after)
 
 
 def _dimensions(spec: RollerCamSpec) -> ElementDimensions:
@@ -145,7 +189,9 @@ def _dimensions(spec: RollerCamSpec) -> ElementDimensions:
         foot_fillet=max(FOOT_FILLET, smallest),
         rounding=ROUNDING,
         gap=spec.process.rules.min_gap,
-        mount=Mount(mount.length, mount.height, mount.hole_diameter, mount.holes),
+        mount=Mount(
+            mount.length, mount.height, mount.hole_diameter, mount.holes, mounting=mount.held
+        ),
     )
 
 

@@ -28,8 +28,15 @@ Mounting = Literal["plates", "pocket"]
 - ``plates``: it is clamped between plates that end with its face; no point of it moves. This is the
   clamp of beam theory.
 - ``pocket``: its back and its two sides are held, and the face that the cantilever grows from is
-  free. The block then yields: for the joint of paper 001 the cantilever's tip is softer by a fifth.
+  free. The block then yields: for the joint of paper 001 the cantilever's tip is softer by a fifth
+  (``Cantilever.root_compliance``).
 """
+
+MOUNTED: dict[Mounting, str] = {
+    "plates": "a mount held between plates that end with its face",
+    "pocket": "a mount held rigidly in a pocket, by its back and sides",
+}
+"""The same for people."""
 
 OVERHANG = 0.1
 """The profile goes on straight, above its first contact as far as there is room and below its last,

@@ -78,13 +78,14 @@ class Case:
 
 
 def tip_stiffness(cantilever: Cantilever) -> float:
-    """Force across the tip per deflection, by bending and shear (N/m).
+    """Force across the tip per deflection, by bending, shear and the turning of the clamp (N/m).
 
     001 counts bending only, which is 3 % stiffer for its cantilever.
     """
     sheared = SHEAR_CORRECTION * cantilever.shear_modulus
     section = float(area(cantilever.width, 0.5 * cantilever.height))
-    return 1.0 / (1.0 / cantilever.tip_stiffness + cantilever.length / (sheared * section))
+    clamp = cantilever.root_compliance * cantilever.length**2
+    return 1.0 / (1.0 / cantilever.tip_stiffness + cantilever.length / (sheared * section) + clamp)
 
 
 def required_arm(torque: Floats, energy: Floats, stiffness: float) -> Floats:

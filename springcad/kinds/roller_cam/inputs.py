@@ -67,6 +67,7 @@ def joint_of(spec: RollerCamSpec) -> Joint:
         width=spec.envelope.thickness[1],
         elastic_modulus=material.elastic_modulus.value,
         poisson_ratio=material.poisson_ratio.value,
+        pocket_fillet=spec.cantilever.root_fillet if spec.mount.held == "pocket" else None,
     )
     roller = Roller(
         radius=spec.joint.roller_radius,

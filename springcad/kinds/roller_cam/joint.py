@@ -8,7 +8,13 @@ drum, so along z it is seen as an ellipse, r wide and r cos β high.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+
+POCKET, BLUNTED = 4.86, 1.33
+"""Rotation of the root in a pocket, ``Cantilever.root_compliance``: without fillets, times E w h²,
+and how fast fillets lessen it. From finite elements: within 4 % for fillets of 0.02 to 0.4 h and
+mounts at least 3 h high and 2 h long; smaller ones yield less, by a fifth at 1.6 h."""
 
 
 @dataclass(frozen=True)
@@ -20,6 +26,8 @@ class Cantilever:
         height: of the section in the plane of bending.
         width: thickness of the sheet, out of that plane.
         elastic_modulus, poisson_ratio: of the material.
+        pocket_fillet: radius of the root fillets of a mount that a pocket holds (``Mounting``);
+            None between plates, where no section of the mount turns.
     """
 
     length: float
@@ -27,6 +35,7 @@ class Cantilever:
     width: float
     elastic_modulus: float
     poisson_ratio: float
+    pocket_fillet: float | None = None
 
     @property
     def bending_stiffness(self) -> float:
@@ -37,6 +46,14 @@ class Cantilever:
     def tip_stiffness(self) -> float:
         """Force across the tip per deflection by bending alone, 3 E I/l³ (N/m)."""
         return 3.0 * self.bending_stiffness / self.length**3
+
+    @property
+    def root_compliance(self) -> float:
+        """Rotation of the section at the clamp per moment there (rad/(N m))."""
+        if self.pocket_fillet is None:
+            return 0.0
+        blunted = math.exp(-BLUNTED * self.pocket_fillet / self.height)
+        return POCKET * blunted / (self.elastic_modulus * self.width * self.height**2)
 
     @property
     def shear_modulus(self) -> float:

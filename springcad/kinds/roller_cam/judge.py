@@ -16,9 +16,15 @@ from springcad.kinds.roller_cam.contact_model import (
     element_contact,
     press_through,
     root_stress,
+    side_stress,
     torque,
 )
+from springcad.kinds.roller_cam.contact_pad import contact_pressure
+from springcad.kinds.roller_cam.element import MOUNTED
+from springcad.kinds.roller_cam.joint import Cantilever, Roller
+from springcad.kinds.roller_cam.part import roller_contact
 from springcad.kinds.roller_cam.written_joint import WrittenJoint, written_joint
+from springcad.mechanics.section import area, nominal_bending_stress
 from springcad.result import Check, Comparison, Judgement, Progress, Value, check
 from springcad.written import WrittenDesign
 
@@ -28,79 +34,140 @@ SHARES = (0.1, 0.25, 0.5, 0.75, 1.0)
 """Angles at which the models are compared, over the stroke from the end of the dead zone."""
 TOLERANCE = 0.005
 """Of torque and force, over the largest: near rest a micrometre is more than a per cent of them."""
+STRESS_TOLERANCE = 0.02
+"""Over the largest. The beam's section is taken where it rests, not where it has gone to."""
+PRESSURE_TOLERANCE = 0.05
+"""At full stroke the arcs of the drawing waver; Hertz's formula knows one curvature."""
 METHOD = "contact finite elements of the element"
-ASSUMPTIONS = (
+_ASSUMPTIONS = (
     "The second opinion is by nonlinear plane-stress finite elements of the whole element, finer "
     "than those that the design used for its contact part, pressed without friction by the rigid "
-    "roller as it sinks and tilts.",
+    "roller as it sinks and tilts; the contact pressure is that of a block on finer elements.",
     "The second opinion shares with the design: elastic constants, linear elasticity, a sheet in "
-    "plane stress, a mount held between plates that end with its face, no play.",
+    "plane stress, {mounted}, no play.",
 )
 
 
 def judge_joint(written: WrittenDesign, progress: Progress) -> Judgement:
-    """Compare torque and roller force over the stroke.
+    """Compare torque, roller force, stress and contact pressure over the stroke.
 
     Raises:
         IncompleteDesignError: the report or the drawing lacks what the model needs.
     """
     joint = written_joint(written)
+    mounted = MOUNTED[joint.geometry.dimensions.mount.mounting]
+    assumptions = tuple(each.format(mounted=mounted) for each in _ASSUMPTIONS)
     progress("second opinion: contact finite elements")
     try:
         element = element_contact(joint.geometry, joint.roller)
     except (InfeasibleError, ValueError) as error:
-        return Judgement(METHOD, (), (_no_mesh(str(error)),), ASSUMPTIONS, {})
+        return Judgement(METHOD, (), (_no_mesh(str(error)),), assumptions, {})
     asked = [joint.dead_zone + share * (joint.deflection - joint.dead_zone) for share in SHARES]
     presses = press_through(element, asked)
     mesh = element.model.solid.mesh
     figures: dict[str, Value] = {"elements": len(mesh.elements), "unknowns": mesh.unknowns}
+    checks = [_mesh_lies_on_drawing(joint, element), _reaches_the_end(asked, presses)]
     if presses:
-        figures |= {
-            "root_fillet_stress_Pa": snapped(root_stress(element, presses[-1])),
-            "contact_part_stress_Pa": snapped(contact_part_stress(element, presses[-1])),
-        }
+        notch = snapped(root_stress(element, presses[-1]))
+        hook = snapped(contact_part_stress(element, presses[-1]))
+        figures |= {"root_fillet_stress_Pa": notch, "contact_part_stress_Pa": hook}
+        checks += _stress_checks(notch, hook, written.number("design.yield_strength_Pa"))
     return Judgement(
         method=METHOD,
-        comparisons=tuple(_comparisons(written, element, presses)),
-        checks=(_mesh_lies_on_drawing(joint, element), _reaches_the_end(asked, presses)),
-        assumptions=ASSUMPTIONS,
+        comparisons=tuple(_comparisons(written, joint, element, presses)),
+        checks=tuple(checks),
+        assumptions=assumptions,
         figures=figures,
     )
 
 
 def _comparisons(
-    written: WrittenDesign, element: ElementContact, presses: Sequence[Press]
+    written: WrittenDesign, joint: WrittenJoint, element: ElementContact, presses: Sequence[Press]
 ) -> Iterator[Comparison]:
     if not presses:
         return
     angles = np.array([press.angle for press in presses])
 
-    def compared(name: str, unit: str, key: str, judged: Callable[[Press], float]) -> Comparison:
-        reported = np.interp(
-            angles, written.array("response.angle_rad"), written.array(f"response.{key}")
-        )
+    def reported(key: str) -> Floats:
+        known = written.array(f"response.{key}")
+        return np.asarray(np.interp(angles, written.array("response.angle_rad"), known))
+
+    def compared(
+        name: str,
+        unit: str,
+        designed: Floats,
+        judged: Callable[[Press], float],
+        tolerance: float,
+        source: str,
+        *,
+        relative: bool = True,
+    ) -> Comparison:
         return Comparison(
             name=name,
             unit=unit,
             place="angle",
             place_unit="rad",
             places=angles,
-            designed=np.array([snapped(float(value)) for value in reported]),
+            designed=np.array([snapped(float(value)) for value in designed]),
             judged=np.array([snapped(judged(press)) for press in presses]),
-            tolerance=TOLERANCE * float(np.max(reported)),
-            relative=False,
-            source="beam with a yielding contact part, drawn profile; finite elements",
+            tolerance=tolerance,
+            relative=relative,
+            source=source,
         )
 
+    source = "beam with a yielding contact part, drawn profile; finite elements"
+    moment, force = reported("group_torque_Nm"), reported("roller_force_N")
     yield compared(
-        "torque of a group", "N*m", "group_torque_Nm", lambda press: torque(element, press)
-    )
+        "torque of a group", "N*m", moment, lambda press: torque(element, press),
+        TOLERANCE * float(np.max(moment)), source, relative=False,
+    )  # fmt: skip
     yield compared(
-        "force of the roller",
-        "N",
-        "roller_force_N",
-        lambda press: float(np.hypot(*press.force)),
-    )
+        "force of the roller", "N", force, lambda press: float(np.hypot(*press.force)),
+        TOLERANCE * float(np.max(force)), source, relative=False,
+    )  # fmt: skip
+    beam = joint.geometry.cantilever
+    stress = beam_stress(beam, joint.roller, angles, force, reported("contact_angle_rad"))
+    yield compared(
+        "stress along the cantilever", "Pa", stress, lambda press: side_stress(element, press),
+        STRESS_TOLERANCE * float(np.nanmax(stress, initial=0.0)),
+        "beam under the reported force; finite elements; one height from the clamp",
+        relative=False,
+    )  # fmt: skip
+    yield compared(
+        "contact pressure", "Pa", reported("contact_pressure_Pa"),
+        lambda press: contact_pressure(element, press, joint.outline), PRESSURE_TOLERANCE,
+        "Hertz; elements of a block pressed on the profile as drawn",
+    )  # fmt: skip
+
+
+def beam_stress(
+    beam: Cantilever, roller: Roller, angle: Floats, force: Floats, gamma: Floats
+) -> Floats:
+    """Nominal stress one height from the clamp under forces (A,) [N] at contact angles (A,) [Pa].
+
+    The place of the contact is where the roller is; the section is taken where it rests.
+    """
+    touch = roller_contact(roller, angle, gamma)
+    arm = touch.point - np.array([beam.height - beam.length, 0.0])
+    pull, push = (force[:, None] * touch.normal).T
+    moment = arm[:, 0] * push - arm[:, 1] * pull
+    half = 0.5 * beam.height
+    bending = nominal_bending_stress(beam.width, half, moment)
+    return np.asarray(bending + np.abs(pull) / area(beam.width, half))
+
+
+def _stress_checks(notch: float, hook: float, yield_strength: float) -> Iterator[Check]:
+    """Peaks that a beam does not know; local yield there is not failure under a static load."""
+    yield check(
+        "second opinion: stress in the root fillets against yield", notch, "<=", yield_strength,
+        "Pa", source="finite elements at the deflection; surface stress, notch included",
+        remedy="a larger cantilever.root_fillet lowers it", otherwise="warn",
+    )  # fmt: skip
+    yield check(
+        "second opinion: stress in the contact part against yield", hook, "<=", yield_strength,
+        "Pa", source="finite elements at the deflection; back of it and fillet at its foot",
+        remedy="a larger contact_part.thickness lowers it", otherwise="warn",
+    )  # fmt: skip
 
 
 def _no_mesh(reason: str) -> Check:

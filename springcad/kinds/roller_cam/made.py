@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from springcad.geometry.outline import Profile
 from springcad.kinds.roller_cam.compensation import Compensated
+from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.drawn import DrawnProfile
 from springcad.kinds.roller_cam.element import ElementGeometry
 from springcad.kinds.roller_cam.feasibility import Case
@@ -28,6 +29,8 @@ class MadeJoint:
 
     Attributes:
         spec, case, law: what it was designed for; the law is that of one group.
+        correction: by a curve from elsewhere; None without.
+        followed: the law that our model is to follow: ``law``, with a correction its pseudo law.
         feasibility: the closed-form checks that it passed before.
         joint: one element and its roller.
         compensated: the profile, and the compliance of the element.
@@ -36,6 +39,8 @@ class MadeJoint:
         geometry, element: the element, and as a part.
         drawn: its profile as the arcs of the drawing.
         stroke: one group seated on the drawn profile.
+        expected_angle: at the torques of the stroke; its own, with a correction those expected
+            where the curve is from (A,).
         gap: smallest distance of roller and profile at each angle of the stroke, the contact part
             rigid: of a yielding one nothing is known beside the contact (A,).
         sensitivity: torque per outward offset of the profile (A,) [N m/m].
@@ -46,6 +51,8 @@ class MadeJoint:
     spec: RollerCamSpec
     case: Case
     law: Law
+    correction: Correction | None
+    followed: Law
     feasibility: tuple[Check, ...]
     joint: Joint
     compensated: Compensated
@@ -54,6 +61,7 @@ class MadeJoint:
     element: Profile
     drawn: DrawnProfile
     stroke: Stroke
+    expected_angle: Floats
     gap: Floats
     sensitivity: Floats
     friction: FrictionLoop | None

@@ -14,7 +14,6 @@ from pydantic import Field
 from springcad.spec.common import (
     CommonSpec,
     Length,
-    MaterialSpec,
     ProcessEntry,
     ProcessSpec,
     Quantity,
@@ -25,6 +24,7 @@ from springcad.spec.common import (
 )
 from springcad.spec.csv_columns import Column
 from springcad.spec.lists import Bounds, Coefficients
+from springcad.spec.material import MaterialSpec
 from springcad.spec.points import CurvePoints, Point, Points
 from springcad.spec.rules import Rule, Section, rule
 from springcad.spec.units import ANGLE, LENGTH, LINEAR_STIFFNESS, STIFFNESS, TORQUE, show
@@ -162,12 +162,14 @@ class Mount(Section):
 
     length: Length = default("10 mm")
     """Along the cantilever, in mm."""
-    height: Length = default("20 mm")
-    """Across the cantilever, in mm."""
+    height: Length = default("15 mm")
+    """Across the cantilever, in mm; at most twice joint.roller_offset."""
     holes: Annotated[int, Field(ge=0, le=20)] = 2
     """Number of holes in a row across the cantilever."""
     hole_diameter: Length = default("4 mm")
     """Diameter of the holes, in mm."""
+    held: Literal["plates", "pocket"] = "plates"
+    """Between plates up to its face, which turns nowhere; or by its sides and back, in a pocket."""
 
 
 class Stepwise(Section):
@@ -279,6 +281,14 @@ def _holes(
     return below_process("a web beside the holes", web, rules.min_web, process)
 
 
+@rule("mount.height", "joint.roller_offset")
+def _mount(height: float, offset: float) -> str | None:
+    if height <= 2.0 * offset * (1.0 + 1e-9):
+        return None
+    limit = show(2.0 * offset, LENGTH)
+    return f"must be at most {limit}, twice the roller's offset: there the mirrored mount begins"
+
+
 @rule("stepwise", "method")
 def _stepwise(stepwise: Stepwise, method: str) -> str | None:
     if method == "stepwise" or not stepwise.model_fields_set:
@@ -310,6 +320,7 @@ class RollerCamSpec(CommonSpec):
         _contact_part,
         _fillet,
         _holes,
+        _mount,
         _stepwise,
         _stepped_compensation,
     )

@@ -7,16 +7,29 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from springcad.kinds.lasting import Loading
 from springcad.kinds.provenance import sources
-from springcad.kinds.roller_cam.checks import joint_checks, pressure, torque_errors
+from springcad.kinds.roller_cam.checks import (
+    TORQUE_TOLERANCE,
+    first_contact,
+    joint_checks,
+    pressure,
+    torque_errors,
+    uncertain_until,
+)
+from springcad.kinds.roller_cam.correction import correction_entry, law_points
+from springcad.kinds.roller_cam.correction_words import correction_assumptions, correction_outcomes
+from springcad.kinds.roller_cam.element import MOUNTED
 from springcad.kinds.roller_cam.made import MadeJoint
+from springcad.kinds.roller_cam.views import joint_views
+from springcad.kinds.strength import with_strength
 from springcad.result import Dimension, Outcome, Part, Plot, Result, Series, Value
 from springcad.spec.source import Spec
 
 
 def summarise(spec: Spec, made: MadeJoint) -> Result:
     """Everything that the reports and files show."""
-    return Result(
+    result = Result(
         kind=spec.kind,
         name=spec.name,
         spec=spec.raw,
@@ -25,10 +38,24 @@ def summarise(spec: Spec, made: MadeJoint) -> Result:
         checks=joint_checks(made),
         outcomes=tuple(_outcomes(made)),
         parts=(_part(made),),
+        views=joint_views(made),
         plots=_plots(made),
         assumptions=tuple(_assumptions(made)),
         advice=tuple(_advice(made)),
         provenance=_provenance(spec, made),
+    )
+    return with_strength(result, made.spec.material, made.spec.process, _loading(made))
+
+
+def _loading(made: MadeJoint) -> Loading:
+    stroke, beam = made.stroke, made.joint.cantilever
+    return Loading(
+        name="nominal stress at the clamp",
+        share=stroke.angle / stroke.angle[-1],
+        stress=stroke.tip.stress,
+        section=(beam.height, beam.width),
+        torque=made.spec.groups * stroke.torque,
+        load_ratio=0.0,
     )
 
 
@@ -37,8 +64,10 @@ def _design(made: MadeJoint) -> dict[str, Value]:
     return {
         "groups": made.spec.groups,
         "law": made.law.words,
+        "law_points": law_points(made.spec),
         "elastic_modulus_Pa": beam.elastic_modulus,
         "poisson_ratio": beam.poisson_ratio,
+        "yield_strength_Pa": made.case.yield_strength,
         "thickness_m": beam.width,
         "mass_kg": made.mass,
         "cantilever_length_m": beam.length,
@@ -65,6 +94,7 @@ def _design(made: MadeJoint) -> dict[str, Value]:
         "method": made.spec.method,
         "compensation": made.spec.compensation,
         "torque_errors_of_updates": list(made.compensated.errors),
+        "correction": correction_entry(made.correction),
         "stepwise_distance_m": made.stepwise_distance,
         "drawing_tolerance_m": made.drawn.tolerance,
         "drawing_torque_change": made.drawn.torque_change,
@@ -82,8 +112,8 @@ def _response(made: MadeJoint) -> dict[str, Value]:
     relative, absolute = torque_errors(made)
     full = groups * float(stroke.torque[-1])
     return {
-        "stiffness_Nm_per_rad": full / float(stroke.angle[-1]),
-        "max_deflection_rad": float(stroke.angle[-1]),
+        "stiffness_Nm_per_rad": full / float(made.expected_angle[-1]),
+        "max_deflection_rad": float(made.expected_angle[-1]),
         "max_torque_Nm": full,
         "energy_J": groups * float(stroke.energy[-1]),
         "torque_error": absolute,
@@ -91,11 +121,13 @@ def _response(made: MadeJoint) -> dict[str, Value]:
         "peak_nominal_stress_Pa": float(np.max(stroke.tip.stress)),
         "peak_contact_pressure_Pa": float(np.max(pressure(made))),
         "peak_roller_force_N": float(np.max(stroke.normal_force)),
+        "first_contact_angle_rad": first_contact(made),
         "largest_contact_angle_rad": float(np.nanmax(stroke.gamma)),
         "largest_tip_rotation_rad": float(np.max(np.abs(stroke.tip.rotation))),
         "angle_rad": stroke.angle,
+        "expected_angle_rad": None if made.correction is None else made.expected_angle,
         "group_torque_Nm": stroke.torque,
-        "law_torque_Nm": made.law.torque(stroke.angle),
+        "law_torque_Nm": made.law.torque(made.expected_angle),
         "group_energy_J": stroke.energy,
         "roller_force_N": stroke.normal_force,
         "nominal_stress_Pa": stroke.tip.stress,
@@ -122,16 +154,17 @@ def _hysteresis(made: MadeJoint) -> dict[str, Value]:
 def _outcomes(made: MadeJoint) -> Iterator[Outcome]:
     stroke, groups, law = made.stroke, made.spec.groups, made.law
     relative, absolute = torque_errors(made)
-    full = groups * float(law.torque(stroke.angle[-1:])[0])
-    yield Outcome("deflection, each way", float(stroke.angle[-1]), "rad", law.deflection)
+    full = groups * float(law.torque(made.expected_angle[-1:])[0])
+    yield from correction_outcomes(made)
+    yield Outcome("deflection, each way", float(made.expected_angle[-1]), "rad", law.deflection)
     yield Outcome(
         "torque at the deflection", groups * float(stroke.torque[-1]), "N*m", full,
         f"of all groups ({groups})",
     )  # fmt: skip
     yield Outcome("energy", groups * float(stroke.energy[-1]), "J",
-                  groups * float(law.energy(stroke.angle[-1:])[0]))  # fmt: skip
-    yield Outcome("torque error, over the full torque", absolute, "1", None,
-                  "forward analysis of the drawn profile")  # fmt: skip
+                  groups * float(made.followed.energy(stroke.angle[-1:])[0]))  # fmt: skip
+    source = "forward analysis of the drawn profile" if made.correction is None else "expected"
+    yield Outcome("torque error, over the full torque", absolute, "1", None, source)
     yield Outcome("torque error, relative", relative, "1", None,
                   "largest from 2.6 % of the stroke on")  # fmt: skip
     yield Outcome("nominal stress at the clamp", float(np.max(stroke.tip.stress)), "Pa",
@@ -176,19 +209,24 @@ def _dimensions(made: MadeJoint) -> tuple[Dimension, ...]:
 
 
 def _plots(made: MadeJoint) -> tuple[Plot, ...]:
-    stroke, law = made.stroke, made.law
-    friction = made.friction
+    stroke, law, angle = made.stroke, made.law, made.expected_angle
+    friction, correction = made.friction, made.correction
+    drawn = "drawn profile" if correction is None else "expected"
+    elsewhere = () if correction is None else (
+        Series(f"{correction.before}, given", correction.given.angle, correction.given.torque),
+        Series("springcad's model", stroke.angle, stroke.torque, dashed=True),
+    )  # fmt: skip
     loops = () if friction is None else (
         Series("loading", friction.angle, friction.loading),
         Series("unloading", friction.angle, friction.unloading),
     )  # fmt: skip
-    wanted = law.torque(stroke.angle)
+    wanted = law.torque(angle)
     return (
         Plot("Torque of a group", "angle", "rad", "torque", "N*m",
-             (Series("drawn profile", stroke.angle, stroke.torque),
-              Series("law", stroke.angle, wanted, dashed=True), *loops)),
+             (Series(drawn, angle, stroke.torque),
+              Series("law", angle, wanted, dashed=True), *elsewhere, *loops)),
         Plot("Torque error", "angle", "rad", "error over the full torque", "1",
-             (Series("drawn profile", stroke.angle, (stroke.torque - wanted) / wanted[-1]),)),
+             (Series(drawn, angle, (stroke.torque - wanted) / wanted[-1]),)),
         Plot("Stress at the clamp", "angle", "rad", "stress", "Pa",
              (Series("nominal", stroke.angle, stroke.tip.stress),),
              limit=made.spec.material.design_stress),
@@ -200,10 +238,14 @@ def _plots(made: MadeJoint) -> tuple[Plot, ...]:
 
 
 def _assumptions(made: MadeJoint) -> Iterator[str]:
+    if made.correction is not None:
+        yield from correction_assumptions(made, made.correction)
+    mounting = made.geometry.dimensions.mount.mounting
+    clamp = "clamped at" if mounting == "plates" else "on a spring against rotation at"
     yield (
-        "The cantilever is a beam with large deflections and shear, clamped at the mount's face; "
+        f"The cantilever is a beam with large deflections and shear, {clamp} the mount's face; "
         "the contact part's compliance is from linear plane-stress finite elements of the whole "
-        "element, the mount held between plates that end with its face."
+        f"element with {MOUNTED[mounting]}."
     )
     yield "The roller and its drum are rigid, the roller of the element's material; no play."
     yield (
@@ -221,25 +263,58 @@ def _assumptions(made: MadeJoint) -> Iterator[str]:
     )
     yield (
         "The nominal stress knows no notch: that of the root fillet is in the second opinion. "
-        "Fatigue life, surface and edge quality are not checked."
+        "Edge quality is not checked."
     )
     yield "Drum radius, roller and their offset are as given; wear and bearing are not checked."
 
 
 def _advice(made: MadeJoint) -> Iterator[str]:
     errors = made.compensated.errors
+    if made.correction is not None:
+        yield (
+            "Simulate or measure this design in the same way; if it still misses the law by too "
+            "much, springcad compensate corrects it in its turn."
+        )
+    law = "law" if made.correction is None else "pseudo law"
     if len(errors) > 1:
         yield (
-            f"A profile for a rigid contact part would miss the law by up to {errors[0]:.1%} "
+            f"A profile for a rigid contact part would miss the {law} by up to {errors[0]:.1%} "
             f"(relative, from 2.6 % of the stroke on); {len(errors) - 1} updates bring it to "
             f"{errors[-1]:.2%}."
+        )
+    yield from _near_rest(made)
+    beam = made.joint.cantilever
+    if beam.root_compliance > 0.0:
+        softer = beam.root_compliance * beam.tip_stiffness * beam.length**2
+        yield (
+            f"In its pocket the mount yields: the tip is more compliant by {softer:.0%} than "
+            "between plates. A mount held otherwise than mount.held says misses the law by as much."
         )
     turned = math.degrees(float(np.max(np.abs(made.stroke.tip.rotation))))
     yield f"The tip turns by up to {turned:.2f} deg."
 
 
+def _near_rest(made: MadeJoint) -> Iterator[str]:
+    """Where the law is not followed, nor can be."""
+    until, first = uncertain_until(made), first_contact(made)
+    if first > made.law.dead_zone:
+        yield (
+            f"Up to {math.degrees(first):.2g} deg the roller should touch where the mirrored "
+            "element begins: those contacts are left out, and the torque there is not the law's. A "
+            "law with some slope at rest needs none of them."
+        )
+    if until is not None:
+        torque = float(made.law.torque(np.array([until]))[0])
+        yield (
+            f"Relative to the law the torque is off by more than {TORQUE_TOLERANCE:.0%} up to "
+            f"{math.degrees(until):.2g} deg, where the law is {torque:.2g} N*m for a group."
+        )
+
+
 def _provenance(spec: Spec, made: MadeJoint) -> Mapping[str, Value]:
+    curve = {} if made.correction is None else {"curve_sha256": made.correction.sha256}
     return {
         "spec_sha256": spec.sha256,
+        **curve,
         **sources(made.spec.material, made.spec.process),
     }

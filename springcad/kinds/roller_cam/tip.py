@@ -8,7 +8,7 @@ too, and even large deflections are an initial value problem from there, without
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,22 +52,27 @@ TipModel = Callable[[Floats, Floats], TipState]
 def linear_tip(cantilever: Cantilever) -> TipModel:
     """Bending with small rotations (001, Eqs 1 and 2), but the moment about the deflected tip.
 
+    The clamp turns by its moment times ``root_compliance``.
+
     Paper 001 takes y for the lever y − v of the axial force. Then the forces have no potential,
     and torque and energy disagree.
     """
     span, bending = cantilever.length, cantilever.bending_stiffness
+    root = bending * cantilever.root_compliance
 
     def tip(point: Floats, force: Floats) -> TipState:
         (x, y), (pull, push) = point.T, (force[:, 0], -force[:, 1])
-        v = -(push * span**3 / 3.0 + (push * x + pull * y) * span**2 / 2.0)
-        v = v / (bending - pull * span**2 / 2.0)
+        by_moment = span**2 / 2.0 + root * span
+        v = -(push * (span**3 / 3.0 + root * span**2) + (push * x + pull * y) * by_moment)
+        v = v / (bending - pull * by_moment)
         return _linear_state(cantilever, force, push * x + pull * (y - v), v)
 
     return tip
 
 
 def printed_tip(cantilever: Cantilever) -> TipModel:
-    """The same with the moment about the tip at rest, as paper 001 prints its Eq. 1."""
+    """The same between plates, the moment about the tip at rest, as paper 001 prints its Eq. 1."""
+    cantilever = replace(cantilever, pocket_fillet=None)
     span, bending = cantilever.length, cantilever.bending_stiffness
 
     def tip(point: Floats, force: Floats) -> TipState:
@@ -82,12 +87,14 @@ def printed_tip(cantilever: Cantilever) -> TipModel:
 def _linear_state(cantilever: Cantilever, force: Floats, moment: Floats, v: Floats) -> TipState:
     """The state under the clockwise ``moment`` at the tip, which moves by v."""
     span, bending, push = cantilever.length, cantilever.bending_stiffness, -force[:, 1]
+    root, at_clamp = bending * cantilever.root_compliance, push * span + moment
     energy = push**2 * span**3 / 3.0 + push * moment * span**2 + moment**2 * span
+    energy = energy + root * at_clamp**2
     return TipState(
         displacement=np.stack([np.zeros_like(v), v], axis=-1),
-        rotation=-(push * span**2 / 2.0 + moment * span) / bending,
+        rotation=-(push * span**2 / 2.0 + moment * span + root * at_clamp) / bending,
         energy=energy / (2.0 * bending),
-        stress=_edge_stress(cantilever, push * span + moment, force[:, 0]),
+        stress=_edge_stress(cantilever, at_clamp, force[:, 0]),
     )
 
 
@@ -104,22 +111,27 @@ def exact_tip(cantilever: Cantilever) -> TipModel:
     def tip(point: Floats, force: Floats) -> TipState:
         lever = point - clamp
         within = np.hypot(*force.T) * np.hypot(*lever.T) < largest
-        axial, transverse = np.where(within, force.T, 0.0)
-        moment = lever[:, 0] * transverse - lever[:, 1] * axial
+        pull, push = np.where(within, force.T, 0.0)
+        moment = lever[:, 0] * push - lever[:, 1] * pull
+        # The clamp turns as a whole, and the cantilever with it.
+        root_turn = cantilever.root_compliance * moment
+        axial, transverse = rotated(np.stack([pull, push], axis=-1), -root_turn).T
         states = follower_load(beam, cantilever.length, axial, transverse, -moment)
-        rotation = np.where(within, np.pi - states.end_rotation, np.nan)
+        rotation = np.where(within, root_turn + np.pi - states.end_rotation, np.nan)
         # In the frame of the tip the clamp lies at ``end_position``.
         return TipState(
             displacement=clamp - rotated(states.end_position, rotation),
             rotation=rotation,
-            energy=np.where(within, states.energy, np.nan),
+            energy=np.where(within, states.energy + 0.5 * root_turn * moment, np.nan),
             stress=_edge_stress(cantilever, moment, axial),
         )
 
     return tip
 
 
-def straight_beam(cantilever: Cantilever, *, root_angle: float) -> PreparedBeam:
+def straight_beam(
+    cantilever: Cantilever, *, root_angle: float, root_compliance: float = 0.0
+) -> PreparedBeam:
     """The cantilever as a ribbon of one panel; its error is far below that of rounding."""
     return prepare(
         RibbonBeam(
@@ -130,9 +142,15 @@ def straight_beam(cantilever: Cantilever, *, root_angle: float) -> PreparedBeam:
             thickness=cantilever.width,
             elastic_modulus=cantilever.elastic_modulus,
             shear_modulus=cantilever.shear_modulus,
+            root_compliance=root_compliance,
             nodes_per_panel=_NODES,
         )
     )
+
+
+def rooted_beam(cantilever: Cantilever) -> PreparedBeam:
+    """The cantilever from its clamp, which turns by its compliance, along x."""
+    return straight_beam(cantilever, root_angle=0.0, root_compliance=cantilever.root_compliance)
 
 
 def carried(cantilever: Cantilever) -> TipModel:
@@ -140,7 +158,7 @@ def carried(cantilever: Cantilever) -> TipModel:
 
     Integrated from the tip back to the clamp: all it shares with ``exact_tip`` is the equations.
     """
-    beam = straight_beam(cantilever, root_angle=0.0)
+    beam = rooted_beam(cantilever)
     tip_at_rest = np.array([cantilever.length, 0.0])
 
     def tip(point: Floats, force: Floats) -> TipState:
@@ -150,7 +168,7 @@ def carried(cantilever: Cantilever) -> TipModel:
             displacement=states.end_position - tip_at_rest,
             rotation=states.end_rotation,
             energy=states.energy,
-            stress=_edge_stress(cantilever, states.root_moment, states.force[:, 0]),
+            stress=_edge_stress(cantilever, states.root_moment, states.axial_force[:, 0]),
         )
 
     return tip

@@ -58,7 +58,7 @@ def _geometry(written: WrittenDesign) -> ElementGeometry:
     )
     if len({len(x), len(y), len(along_x), len(along_y)}) > 1:
         raise IncompleteDesignError("the arrays of design.profile do not fit together")
-    held = written.text("design.mount.held")
+    held, fillet = written.text("design.mount.held"), number("design.root_fillet_radius_m")
     if held not in _MOUNTINGS:
         raise IncompleteDesignError(f"design.mount.held {held!r} is not known")
     return ElementGeometry(
@@ -68,12 +68,13 @@ def _geometry(written: WrittenDesign) -> ElementGeometry:
             width=number("design.thickness_m"),
             elastic_modulus=number("design.elastic_modulus_Pa"),
             poisson_ratio=number("design.poisson_ratio"),
+            pocket_fillet=fillet if held == "pocket" else None,
         ),
         points=np.column_stack([x, y]),
         tangents=np.column_stack([along_x, along_y]),
         dimensions=ElementDimensions(
             thickness=number("design.contact_part.thickness_m"),
-            root_fillet=number("design.root_fillet_radius_m"),
+            root_fillet=fillet,
             foot_fillet=number("design.contact_part.foot_fillet_radius_m"),
             rounding=number("design.contact_part.rounding_radius_m"),
             gap=number("design.contact_part.gap_to_mirrored_m"),
