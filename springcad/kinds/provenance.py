@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from springcad.result import Value
-from springcad.spec.common import MaterialSpec, ProcessSpec
+from springcad.spec.common import ProcessSpec
+from springcad.spec.material import MaterialSpec
 
 
 def sources(material: MaterialSpec, process: ProcessSpec) -> Mapping[str, Value]:

@@ -8,6 +8,7 @@ the design stress of a part, which its surface and the wanted reliability lower 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from springcad.materials.data import Material, Value
 from springcad.mechanics.fatigue import (
@@ -61,17 +62,26 @@ def fatigue_stress(material: Material, cycles: float) -> Allowable:
 
     No other metal and no polymer has an endurance limit, and nothing is extrapolated.
     """
+    if fatigue_basis(material, cycles) == "known" and material.fatigue_strength is not None:
+        return Allowable(material.fatigue_strength, "fatigue strength")
+    assert material.ultimate_strength is not None
+    estimate = _estimate(material.ultimate_strength, min(cycles, HIGH_CYCLES))
+    return Allowable(estimate, "fatigue, estimated")
+
+
+def fatigue_basis(material: Material, cycles: float) -> Literal["estimate", "known"]:
+    """Which of the two speaks of ``cycles``, as ``fatigue_stress`` has it; raises as that does."""
     if not cycles >= LOW_CYCLES:
         raise ValueError(f"the S-N line begins at 1e3 cycles, asked for {cycles:g}")
     is_steel = material.family == "steel"
-    ultimate = material.ultimate_strength if is_steel else None
+    is_estimated = is_steel and material.ultimate_strength is not None
     known, known_cycles = material.fatigue_strength, material.fatigue_cycles
-    if ultimate is not None and cycles <= HIGH_CYCLES:
-        return Allowable(_estimate(ultimate, cycles), "fatigue, estimated")
+    if is_estimated and cycles <= HIGH_CYCLES:
+        return "estimate"
     if known is not None and (is_steel or (known_cycles is not None and cycles <= known_cycles)):
-        return Allowable(known, "fatigue strength")
-    if ultimate is not None:
-        return Allowable(_estimate(ultimate, HIGH_CYCLES), "fatigue, estimated")
+        return "known"
+    if is_estimated:
+        return "estimate"
     raise NoFatigueDataError(_what_is_missing(material))
 
 

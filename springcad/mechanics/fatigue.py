@@ -9,8 +9,9 @@ it. A life from S_ut alone is right to a factor of about 10. Stresses are amplit
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 
 LOW_CYCLES = 1e3
 HIGH_CYCLES = 1e6
@@ -36,19 +37,24 @@ RELIABILITY_FACTORS: Mapping[float, float] = {
 
 @dataclass(frozen=True)
 class SNLine:
-    """Stress amplitude ``low`` at 1e3 cycles, ``high`` at 1e6, straight in log-log between."""
+    """Fully reversed stress over life, straight in log-log between ``points``.
 
-    low: float
-    high: float
+    Attributes:
+        points: (cycles, stress amplitude), the cycles ascending and the stresses falling.
+        endures: whether a stress below the last point does no damage, as it is taken for steels.
+    """
+
+    points: tuple[tuple[float, float], ...]
+    endures: bool = False
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.high < self.low:
+        falls = all(n1 < n2 and s1 > s2 for (n1, s1), (n2, s2) in pairwise(self.points))
+        if not self.points or not falls or self.points[0][0] <= 0.0 or self.points[-1][1] <= 0.0:
             raise ValueError("the S-N line must fall from a positive stress to a positive stress")
 
-    @property
-    def exponent(self) -> float:
-        """b of sigma = a N^b; negative."""
-        return math.log(self.high / self.low) / math.log(HIGH_CYCLES / LOW_CYCLES)
+    def scaled(self, factor: float) -> SNLine:
+        """The line with all of its stresses multiplied by ``factor``."""
+        return SNLine(tuple((n, factor * stress) for n, stress in self.points), self.endures)
 
 
 def estimated_line(
@@ -60,7 +66,8 @@ def estimated_line(
     ultimate strength at 1e3 cycles. Paper 004 has 1 and 0.9.
     """
     high = endurance_factor * endurance_limit_estimate(ultimate_strength)
-    return SNLine(fraction * ultimate_strength, high)
+    points = ((LOW_CYCLES, fraction * ultimate_strength), (HIGH_CYCLES, high))
+    return SNLine(points, endures=True)
 
 
 def endurance_limit_estimate(ultimate_strength: float) -> float:
@@ -69,22 +76,61 @@ def endurance_limit_estimate(ultimate_strength: float) -> float:
 
 
 def stress_at_life(line: SNLine, cycles: float) -> float:
-    """Stress amplitude that ``cycles`` (1e3 to 1e6) allow; ValueError outside of the line."""
-    if not LOW_CYCLES <= cycles <= HIGH_CYCLES:
-        raise ValueError(f"the S-N line holds from 1e3 to 1e6 cycles, not at {cycles:g}")
-    return float(line.low * (cycles / LOW_CYCLES) ** line.exponent)
+    """Stress amplitude that ``cycles`` allow; ValueError outside of the line's points."""
+    (first, _), (last, _) = line.points[0], line.points[-1]
+    if not first <= cycles <= last:
+        raise ValueError(
+            f"the S-N line holds from {power(first)} to {power(last)} cycles, not at {cycles:g}"
+        )
+    for (n1, s1), (n2, s2) in pairwise(line.points):
+        if cycles <= n2:
+            return float(s1 * (cycles / n1) ** (math.log(s2 / s1) / math.log(n2 / n1)))
+    return line.points[-1][1]
 
 
 def life_at_stress(line: SNLine, amplitude: float) -> float:
-    """Cycles at the stress ``amplitude``; infinite below ``line.high``, ValueError above ``low``.
+    """Cycles at the stress ``amplitude``; ValueError above the first point of the line.
 
-    The infinite life holds for steels; other metals and polymers have no endurance limit.
+    Below the last point they are infinite if the line endures, which holds for steels; else they
+    are those of the last point, a lower bound.
     """
-    if amplitude > line.low:
-        raise ValueError("the stress is beyond the S-N line: fewer than 1e3 cycles")
-    if amplitude < line.high:
-        return math.inf
-    return float(LOW_CYCLES * (amplitude / line.low) ** (1.0 / line.exponent))
+    if amplitude > line.points[0][1]:
+        raise ValueError(
+            f"the stress is beyond the S-N line: fewer than {power(line.points[0][0])} cycles"
+        )
+    if amplitude < line.points[-1][1]:
+        return math.inf if line.endures else line.points[-1][0]
+    for (n1, s1), (n2, s2) in pairwise(line.points):
+        if amplitude >= s2:
+            return float(n1 * (amplitude / s1) ** (math.log(n2 / n1) / math.log(s2 / s1)))
+    return line.points[-1][0]
+
+
+def miners_sum(line: SNLine, levels: Collection[tuple[float, float]]) -> float:
+    """Sum of n/N over ``levels`` of (stress amplitude, cycles n): 1 is the life of half the parts.
+
+    As long as every level is below the endurance limit it is 0; once one is above, the others
+    count with the line continued at its last slope (elementary Miner, on the safe side).
+    ValueError for a level above the line.
+    """
+    lives = [(n, life_at_stress(line, amplitude), amplitude) for amplitude, n in levels]
+    if all(math.isinf(life) for _, life, _ in lives):
+        return 0.0
+    return sum(n / _continued(line, amplitude, life) for n, life, amplitude in lives)
+
+
+def _continued(line: SNLine, amplitude: float, life: float) -> float:
+    """``life``, where it is infinite that of the line's last slope."""
+    if math.isfinite(life) or amplitude <= 0.0 or len(line.points) < 2:
+        return life
+    (n1, s1), (n2, s2) = line.points[-2:]
+    return float(n2 * (amplitude / s2) ** (math.log(n2 / n1) / math.log(s2 / s1)))
+
+
+def power(cycles: float) -> str:
+    """Cycles as people write them: ``1e5``, ``2.5e5``; up to four digits."""
+    mantissa, exponent = f"{cycles:.3e}".split("e")
+    return f"{float(mantissa):g}e{int(exponent)}"
 
 
 def surface_factor(surface: str, ultimate_strength: float) -> float:
@@ -122,6 +168,29 @@ def gerber(amplitude: float, mean: float, ultimate_strength: float) -> float:
 def soderberg(amplitude: float, mean: float, yield_strength: float) -> float:
     """As ``goodman``, with a straight line to the yield strength: the most severe."""
     return amplitude / (1.0 - _share(mean, yield_strength))
+
+
+MEAN_STRESS: Mapping[str, Callable[[float, float, float], float]] = {
+    "goodman": goodman,
+    "gerber": gerber,
+    "soderberg": soderberg,
+}
+"""Corrections by name; the third argument is the yield strength for Soderberg, else the ultimate
+strength."""
+
+
+def peak_for_reversed(amplitude: float, load_ratio: float, correction: str, limit: float) -> float:
+    """Peak of a stress from R peak to peak that is as damaging as the reversed ``amplitude``.
+
+    ``correction`` is a name in ``MEAN_STRESS``, ``limit`` its strength (Pa). Inverse of that
+    correction: with a = (1 - R)/2 and m = (1 + R)/2, Goodman and Soderberg give
+    S/(a + m S/limit), Gerber the positive root of a p = S (1 - (m p/limit)^2).
+    """
+    a, m = amplitude_and_mean(1.0, load_ratio)
+    slope = amplitude * m / limit
+    if correction == "gerber":
+        return 2.0 * amplitude / (a + math.hypot(a, 2.0 * slope))
+    return amplitude / (a + slope)
 
 
 def amplitude_and_mean(peak: float, load_ratio: float) -> tuple[float, float]:

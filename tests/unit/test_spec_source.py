@@ -167,14 +167,15 @@ def test_the_template_is_valid_and_its_optional_keys_are_too(tmp_path: Path) -> 
     names = ("process", "mounting")
     twice = [n for line in full for n in names if line.startswith(f"{n}:")]
     assert twice == ["process", "process", "mounting", "mounting"]
-    full = [
-        s for s in full if s.split("#")[0].strip() not in ("process: wire-edm", "mounting: bore")
-    ]
+    others = ("process: wire-edm", "mounting: bore", "design_stress: 912 MPa")
+    full = [line for line in full if line.split("#")[0].strip() not in others]
     text = "\n".join(full).replace("form: curvature ", "form: control-points ")
     model = read(tmp_path, text).model
     assert isinstance(model, SPEC_MODEL)
     assert model.mounting.dowels is not None
     assert model.material.values.density.source == "spec"
+    assert model.material.life is not None
+    assert model.material.life.cycles == 1e5
 
 
 def _optional(line: str) -> bool:

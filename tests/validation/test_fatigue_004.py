@@ -69,7 +69,7 @@ def test_nothing_is_extrapolated_beyond_the_line() -> None:
     with pytest.raises(ValueError, match="fewer than 1e3 cycles"):
         life_at_stress(line, 1549e6)
     with pytest.raises(ValueError, match="must fall"):
-        SNLine(low=500e6, high=600e6)
+        SNLine(((1e3, 500e6), (1e6, 600e6)))
 
 
 def test_the_endurance_limit_is_half_the_strength_up_to_700_mpa() -> None:

@@ -17,7 +17,6 @@ from springcad.spec.common import (
     CommonSpec,
     Length,
     LengthOrZero,
-    MaterialSpec,
     ProcessEntry,
     ProcessSpec,
     TorsionalStiffness,
@@ -25,6 +24,7 @@ from springcad.spec.common import (
     below_process,
     default,
 )
+from springcad.spec.material import MaterialSpec
 from springcad.spec.rules import Rule, Section, rule
 from springcad.spec.units import LENGTH, show
 

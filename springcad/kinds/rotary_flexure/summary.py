@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from springcad.kinds.lasting import Loading
 from springcad.kinds.provenance import sources
 from springcad.kinds.rotary_flexure.checks import law_stress, root_fillet_stress, spring_checks
 from springcad.kinds.rotary_flexure.response import both_ways
@@ -14,6 +15,7 @@ from springcad.kinds.rotary_flexure.room import deflection_bound
 from springcad.kinds.rotary_flexure.sizing import mounting_of
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.kinds.rotary_flexure.straight import straight_alternatives
+from springcad.kinds.strength import with_strength
 from springcad.result import Dimension, Outcome, Part, Plot, Result, Series, Value
 from springcad.spec.source import Spec
 
@@ -24,7 +26,7 @@ FLANK_TOLERANCE = 6e-6
 
 def summarise(spec: Spec, spring: Spring) -> Result:
     """Everything that the reports and files show."""
-    return Result(
+    result = Result(
         kind=spec.kind,
         name=spec.name,
         spec=spec.raw,
@@ -37,6 +39,28 @@ def summarise(spec: Spec, spring: Spring) -> Result:
         assumptions=_assumptions(spring),
         advice=tuple(_advice(spring)),
         provenance=_provenance(spec, spring),
+    )
+    return with_strength(result, spring.spec.material, spring.spec.process, _loading(spring))
+
+
+def _loading(spring: Spring) -> Loading:
+    """The worse of both directions, and the places where the stress is higher than bounded."""
+    forward, backward = spring.strokes
+    bounded = "nominal_stress" if spring.spec.stress == "nominal" else "local_stress"
+    share = forward.angle / forward.angle[-1]
+    ahead = getattr(forward, bounded)
+    behind = np.interp(share, backward.angle / backward.angle[-1], getattr(backward, bounded))
+    root = 2.0 * float(spring.found.ribbon.at(np.zeros(1)).half_thickness[0])
+    return Loading(
+        name="nominal stress" if bounded == "nominal_stress" else "inner-fibre stress",
+        share=share,
+        stress=np.maximum(ahead, behind),
+        section=(root, spring.law.inputs.thickness),
+        torque=forward.torque,
+        local={
+            "inner-fibre stress": _peak(spring, "local_stress"),
+            "root fillet stress": root_fillet_stress(spring),
+        },
     )
 
 
@@ -280,8 +304,7 @@ def _assumptions(spring: Spring) -> tuple[str, ...]:
         "spring are those of a beam with large deflections, shear and axial force.",
         f"The stress compared with material.design_stress is the {spec.stress} one; the root "
         "fillets are reported apart.",
-        "The design stress is taken as given: fatigue life, surface and edge quality of the cut "
-        "are not checked.",
+        "Edge quality of the cut is not checked.",
         "The camshaft is of the same material and thickness as the ring; its fatigue is not "
         "checked. Both parts are cut to size: kerf and tolerances are the shop's.",
         "Paper 004 cites a patent application on the two-part spring, US 15/402,186: check before "
