@@ -55,19 +55,24 @@ def with_reference(text: str) -> str:
 
 def command_help() -> str:
     """What ``--help`` says, for the program and each command."""
+    from typer.main import get_command
     from typer.testing import CliRunner
 
     from springcad.cli.app import app
 
-    names = [command.callback.__name__ for command in app.registered_commands if command.callback]
     passages = []
-    for arguments in ([], *([name] for name in names)):
-        command = " ".join(["springcad", *arguments])
-        run = CliRunner().invoke(
-            app, [*arguments, "--help"], prog_name="springcad", terminal_width=88
-        )
+    for path in _paths(get_command(app)):
+        command = " ".join(["springcad", *path])
+        run = CliRunner().invoke(app, [*path, "--help"], prog_name="springcad", terminal_width=88)
         passages.append(f"## {command}\n\n```text\n{run.stdout.strip()}\n```\n")
     return "\n".join(passages)
+
+
+def _paths(command: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """The words that lead to a command and to each of its own commands."""
+    yield path
+    for name, inner in getattr(command, "commands", {}).items():
+        yield from _paths(inner, (*path, name))
 
 
 def spec_keys(kind: str) -> str:
@@ -92,21 +97,29 @@ def _spec_rows(fields: dict[str, FieldInfo], prefix: str) -> Iterator[tuple[str,
 
 
 def _allowed(field: FieldInfo) -> str:
-    from springcad.spec.common import NAME_PATTERN, OneOf, Quantity
-    from springcad.spec.lists import Bounds, Coefficients
+    from springcad.spec.common import NAME_PATTERN, Count, OneOf, Quantity
+    from springcad.spec.lists import Bounds, Coefficients, Range
+    from springcad.spec.pairs import Pairs
     from springcad.spec.points import CurvePoints
     from springcad.spec.rules import section_of
 
     for note in (field.annotation, *field.metadata, *_notes(field.annotation)):
         if isinstance(note, Quantity):
-            words = "".join(f"`{word}` or " for word in note.words)
-            return f"{words}{note.dimension.name}, {note.low} to {note.high}"
+            return f"{_words(note.words)}{note.dimension.name}, {note.low} to {note.high}"
+        if isinstance(note, Count):
+            return f"{_words(note.words)}whole number, from {note.low} to {note.high}"
+        if isinstance(note, Range):
+            return (
+                f"{_words(note.quantity.words)}{note.quantity.dimension.name}: `[least, greatest]`"
+            )
         if isinstance(note, OneOf):
             return f"name of a {note.what}"
         if isinstance(note, Bounds):
             return f"{note.quantity.dimension.name}, or two: `[low, high]`"
         if isinstance(note, Coefficients):
             return "list of coefficients"
+        if isinstance(note, Pairs):
+            return f"list of pairs {note.words}"
         if isinstance(note, CurvePoints):
             return "CSV file, or list of pairs"
     if section_of(field):
@@ -116,6 +129,10 @@ def _allowed(field: FieldInfo) -> str:
     if field.annotation is str:
         return f"text, `{NAME_PATTERN}`"
     return _number(field)
+
+
+def _words(words: tuple[str, ...]) -> str:
+    return "".join(f"`{word}` or " for word in words)
 
 
 def _notes(annotation: Any) -> Iterator[Any]:
@@ -189,11 +206,15 @@ PASSAGES: dict[str, Callable[[], str]] = {
     "commands": command_help,
     "rotary-keys": lambda: spec_keys("rotary-flexure"),
     "roller-keys": lambda: spec_keys("roller-cam"),
+    "lever-keys": lambda: spec_keys("lever-arm"),
+    "leaf2-keys": lambda: spec_keys("leaf-2dof"),
     "materials": material_names,
     "processes": process_rules,
     "spec-s2": spec_s2,
     "rotary-template": lambda: template("rotary-flexure"),
     "roller-template": lambda: template("roller-cam"),
+    "lever-template": lambda: template("lever-arm"),
+    "leaf2-template": lambda: template("leaf-2dof"),
 }
 
 
