@@ -180,8 +180,9 @@ def changed(old: str, new: str) -> str:
         ),
         (
             "kind: rotary-flexure",
-            "kind: leaf-2dof",
-            "spec.yaml:2:7: kind: unknown kind leaf-2dof; known: rotary-flexure or roller-cam",
+            "kind: coil",
+            "spec.yaml:2:7: kind: unknown kind coil; known: rotary-flexure, roller-cam, lever-arm "
+            "or leaf-2dof",
         ),
         (
             "name: knee-s2",
