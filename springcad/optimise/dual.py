@@ -57,6 +57,11 @@ class Dual:
         """f(self), given the values of f and of its derivative (N,)."""
         return Dual(value, slope[:, None] * self.gradient)
 
+    @property
+    def bare(self) -> Dual:
+        """The values alone, as a dual of no variables: arithmetic on it costs little."""
+        return Dual(self.value, np.zeros((len(self.value), 0)))
+
     def mapped(self, matrix: Floats) -> Dual:
         """``matrix`` (M, N) applied to the values and to every derivative."""
         return Dual(matrix @ self.value, matrix @ self.gradient)

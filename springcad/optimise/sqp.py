@@ -52,29 +52,38 @@ class Solution:
 class _Parts:
     """The parts of a problem one by one, as SLSQP asks for them, from one evaluation a point."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, values: Problem) -> None:
         self._problem = problem
+        self._values = values
         self._last: tuple[Floats, Evaluation] | None = None
+        self._last_values: tuple[Floats, Evaluation] | None = None
 
     def _at(self, variables: Floats) -> Evaluation:
         if self._last is None or not np.array_equal(variables, self._last[0]):
             self._last = variables.copy(), self._problem(variables)
         return self._last[1]
 
+    def _values_at(self, variables: Floats) -> Evaluation:
+        if self._last is not None and np.array_equal(variables, self._last[0]):
+            return self._last[1]
+        if self._last_values is None or not np.array_equal(variables, self._last_values[0]):
+            self._last_values = variables.copy(), self._values(variables)
+        return self._last_values[1]
+
     def objective(self, variables: Floats) -> float:
-        return self._at(variables).objective
+        return self._values_at(variables).objective
 
     def gradient(self, variables: Floats) -> Floats:
         return self._at(variables).gradient
 
     def equalities(self, variables: Floats) -> Floats:
-        return self._at(variables).equalities
+        return self._values_at(variables).equalities
 
     def equality_jacobian(self, variables: Floats) -> Floats:
         return self._at(variables).equality_jacobian
 
     def inequalities(self, variables: Floats) -> Floats:
-        return self._at(variables).inequalities
+        return self._values_at(variables).inequalities
 
     def inequality_jacobian(self, variables: Floats) -> Floats:
         return self._at(variables).inequality_jacobian
@@ -85,6 +94,7 @@ def solve(
     start: Floats,
     bounds: tuple[Floats, Floats],
     *,
+    values: Problem | None = None,
     index: int = 0,
     max_iterations: int = 200,
     tolerance: float = 1e-6,
@@ -95,12 +105,14 @@ def solve(
         problem: values and gradients at a point (V,).
         start: first point (V,); clipped to the bounds.
         bounds: lower and upper bounds, each (V,).
+        values: the problem's values alone (its gradients are not read), where that is cheaper:
+            line searches need no more.
         index: number of this start, kept in the solution.
         max_iterations: the search is bounded by this count.
         tolerance: SLSQP's ``ftol`` on the objective.
     """
     lower, upper = bounds
-    parts = _Parts(problem)
+    parts = _Parts(problem, values or problem)
     found, _, iterations, *_ = fmin_slsqp(
         parts.objective,
         np.clip(start, lower, upper).tolist(),

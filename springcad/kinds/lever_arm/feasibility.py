@@ -1,0 +1,281 @@
+"""Can any leaf give the spring? Closed forms only, before any leaf is sized on the beam.
+
+The estimate of the stiffness is that of ``springcad.mechanics.leaf``; for an omega leaf it is a
+bound that no spring of the material can pass in its enclosure.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from springcad.kinds.feasible import advised, require_all
+from springcad.kinds.knobs import Knob, remedies
+from springcad.kinds.lever_arm.mechanism import (
+    Lever,
+    crank_angle,
+    dead_angle,
+    loads,
+    stroke,
+    transmission,
+)
+from springcad.mechanics.leaf import SHAPES, greatest_stiffness, stiffness, thickness_for
+from springcad.result import Check, check
+
+Shape = Literal["constant", "triangular", "parabolic", "omega"]
+
+ESTIMATE_ERROR = 0.25
+"""Share by which the closed form of the stiffness may be too low or too high: it knows neither
+large deflection nor shear, eye, fillet and least web (measured: 2 to 6 %)."""
+THICKEST = {"constant": 0.25, "triangular": 0.08, "parabolic": 0.25}
+"""Thickness over length up to which a leaf is a beam; the shear in a triangle's narrow end, of
+which the beam knows too little, is then 1.5 % of its deflection."""
+SHEETS = tuple(
+    1e-3 * size
+    for size in (
+        0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0,
+        8.0, 10.0, 12.0, 15.0, 20.0,
+    )
+)  # fmt: skip
+"""Customary thicknesses of sheet [m]; a shop may have others: leaf.sheet_thickness takes any."""
+_UTILISATION = 1.0 / 3.0
+"""Largest share of σ²/2E that bending stores in a volume (paper 000, III-B)."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """What is asked for, SI; 0 stands for a length or a number that is not given.
+
+    Attributes:
+        lever: the mechanism.
+        pivot_low, pivot_high: its pivot's range.
+        shape: of the leaf.
+        deflection: s_max.
+        stiffness: of all leaves at s_max, wanted; 0 if layers or width decide.
+        count: leaves side by side.
+        length: of a straight leaf.
+        sheet: thickness of the sheet.
+        layers: of a stack.
+        width: of a triangular leaf.
+        height: room along the axis for all leaves.
+        radius, corridor: of the enclosure of an omega leaf.
+        max_pivot_force: 0 if not limited.
+        elastic_modulus, poisson_ratio, design_stress, yield_strength: of the material.
+        min_web, min_gap: of the process.
+    """
+
+    lever: Lever
+    pivot_low: float
+    pivot_high: float
+    shape: Shape
+    deflection: float
+    stiffness: float
+    count: int
+    length: float
+    sheet: float
+    layers: int
+    width: float
+    height: float
+    radius: float
+    corridor: float
+    max_pivot_force: float
+    elastic_modulus: float
+    poisson_ratio: float
+    design_stress: float
+    yield_strength: float
+    min_web: float
+    min_gap: float
+
+    @property
+    def room(self) -> float:
+        """Largest width of one leaf: its layers, else what the height leaves; inf without both."""
+        if self.layers:
+            return self.layers * self.sheet
+        if not self.height:
+            return math.inf
+        share = self.height / self.count
+        if self.shape == "triangular":
+            return share
+        return math.floor(share / self.sheet * (1.0 + 1e-9)) * self.sheet
+
+
+def feasibility_checks(case: Case) -> tuple[Check, ...]:
+    """All closed-form checks; those that fail carry remedies that make every one of them pass."""
+    return advised(tuple(_checks(case)), lambda: case_remedies(case))
+
+
+def require_feasible(case: Case) -> tuple[Check, ...]:
+    """The checks of a feasible case; InfeasibleError with the first failing one otherwise."""
+    return require_all(
+        tuple(_checks(case)),
+        lambda: case_remedies(case),
+        lambda claim: f"{claim.name} ({claim.source})",
+    )
+
+
+def failures(case: Case) -> tuple[str, ...]:
+    """Names of the checks that fail, without the numbers in them; for use in searches."""
+    return tuple(claim.name.partition(",")[0] for claim in _checks(case) if claim.status == "fail")
+
+
+def full_thickness(case: Case) -> float:
+    """Thickness at the clamp that the stress allows, of a straight leaf (000, Eq. 17) [m]."""
+    return float(
+        thickness_for(
+            SHAPES[case.shape],
+            case.elastic_modulus,
+            case.length,
+            case.design_stress,
+            case.deflection,
+        )
+    )
+
+
+def sheet_for(thickness: float) -> float:
+    """The largest customary sheet not above a thickness, 0 if there is none [m]."""
+    return max((sheet for sheet in SHEETS if sheet <= thickness * (1.0 + 1e-9)), default=0.0)
+
+
+def estimated_stiffness(case: Case, width: float) -> float:
+    """Of all leaves of a width at their full stress, straight ones, closed form [N/m]."""
+    shape = SHAPES[case.shape]
+    if case.shape != "triangular":
+        one = greatest_stiffness(
+            shape, case.elastic_modulus, width, case.length, case.design_stress, case.deflection
+        )
+        return case.count * float(one)
+    sheet = case.sheet or sheet_for(full_thickness(case))
+    return case.count * float(stiffness(shape, case.elastic_modulus, width, case.length, sheet))
+
+
+def _checks(case: Case) -> Iterator[Check]:
+    """Every claim, without remedies; in this order the first failing one is reported."""
+    yield check("design stress against yield", case.design_stress, "<=", case.yield_strength, "Pa",
+                source="material data")  # fmt: skip
+    if case.shape == "omega":
+        yield from _bound(case)
+    else:
+        yield from _section(case)
+        yield from _reach(case)
+    yield from _mechanism(case)
+
+
+def _section(case: Case) -> Iterator[Check]:
+    """Thickness that the stress allows, against what can be cut, bought and called a beam."""
+    full = full_thickness(case)
+    law = "2 c l² σ/(E s), c = 1/3, 1/2 or 2/3 (000, Eq. 17 for the constant section)"
+    if case.shape != "triangular":
+        yield check("thickness at the clamp, closed form", full, ">=", case.min_web, "m",
+                    source=f"{law}; smallest web of the process")  # fmt: skip
+    elif case.sheet:
+        yield check("thickness of the sheet, closed form", case.sheet, "<=", full, "m", source=law,
+                    otherwise=_estimate(case.sheet, full))  # fmt: skip
+    else:
+        yield check("thickness of the leaf, closed form", full, ">=", SHEETS[0], "m",
+                    source=f"{law}; thinnest customary sheet")  # fmt: skip
+    yield check("thickness over length, closed form", full / case.length, "<=",
+                THICKEST[case.shape], "1",
+                source="a beam is slender")  # fmt: skip
+
+
+def _reach(case: Case) -> Iterator[Check]:
+    """Whether the wanted stiffness fits into layers or height; nothing where both are free."""
+    if not case.stiffness or not math.isfinite(case.room):
+        return
+    most = estimated_stiffness(case, case.room)
+    yield check(
+        "stiffness at full stress, closed form", most, ">=", case.stiffness, "N/m",
+        source=f"{case.count} x {1e3 * case.room:.4g} mm wide; within {ESTIMATE_ERROR:.0%}",
+        otherwise=_estimate(case.stiffness, most),
+    )  # fmt: skip
+
+
+def _estimate(wanted: float, most: float) -> Literal["warn", "fail"]:
+    return "warn" if wanted <= (1.0 + ESTIMATE_ERROR) * most else "fail"
+
+
+def _bound(case: Case) -> Iterator[Check]:
+    """No spring stores more than σ²/6E in its enclosure's volume."""
+    if not case.stiffness or not math.isfinite(case.room):
+        return
+    volume = case.count * case.room * math.pi * case.radius**2
+    dense = case.design_stress**2 / (2.0 * case.elastic_modulus)
+    most = 2.0 * _UTILISATION * dense * volume / case.deflection**2
+    yield check(
+        "stiffness of a full enclosure, upper bound", most, ">=", case.stiffness, "N/m",
+        source=f"σ²/6E in {1e3 * case.count * case.room:.4g} mm of the enclosure's height",
+    )  # fmt: skip
+
+
+def _mechanism(case: Case) -> Iterator[Check]:
+    """Whether the spring is used at every pivot position, and what the pivot carries."""
+    lever, s = case.lever, case.deflection
+    angle = float(crank_angle(lever, case.pivot_high, s))
+    if math.isnan(angle):
+        dead = dead_angle(lever, case.pivot_high)
+        reached = float(transmission(lever, case.pivot_high, dead).deflection)
+        yield check(
+            "deflection of the spring reached, at the farthest pivot", reached, ">=", s, "m",
+            source="the crank is at its dead angle before; the spring is not used fully there",
+            remedy="lower the high end of mechanism.pivot", otherwise="warn",
+        )  # fmt: skip
+    if not case.max_pivot_force:
+        return
+    spring = s * _known_stiffness(case)
+    force = float(loads(lever, case.pivot_low, stroke(lever, case.pivot_low, s), spring).pivot)
+    yield check(
+        "force on the pivot, at its low end", force, "<=", case.max_pivot_force, "N",
+        source="l/q times the spring's force (000, Eq. 3), the lever tilted",
+    )  # fmt: skip
+
+
+def _known_stiffness(case: Case) -> float:
+    """Wanted, else estimated; 0 for an omega leaf whose layers decide."""
+    if case.stiffness or case.shape == "omega":
+        return case.stiffness
+    return estimated_stiffness(case, case.width or case.room)
+
+
+KNOBS = (
+    Knob("target.spring_deflection", "mm", 1e-3, "deflection"),
+    Knob("target.spring_stiffness", "N/mm", 1e3, "stiffness", upwards=False),
+    Knob("leaf.length", "mm", 1e-3, "length"),
+    Knob("leaf.sheet_thickness", "mm", 1e-3, "sheet"),
+    Knob("leaf.layers", "", 1.0, "layers"),
+    Knob("leaf.width", "mm", 1e-3, "width"),
+    Knob("leaf.count", "", 1.0, "count"),
+    Knob("envelope.height", "mm", 1e-3, "height"),
+    Knob("envelope.radius", "mm", 1e-3, "radius"),
+    Knob("the low end of mechanism.pivot", "mm", 1e-3, "pivot_low"),
+    Knob("mechanism.max_pivot_force", "N", 1.0, "max_pivot_force"),
+    Knob("material.design_stress", "MPa", 1e6, "design_stress", upwards=False),
+)
+"""What a user may change, most telling first. Raising a stress is not a cure."""
+
+
+def case_remedies(case: Case) -> tuple[str, ...]:
+    """Changes of the spec after which every closed-form check passes, each one recomputed."""
+    return remedies(
+        case, KNOBS, lambda tried: failures(tried) if _is_spec(case, tried) else ("rules",)
+    )
+
+
+def _is_spec(case: Case, tried: Case) -> bool:
+    """Whether a spec may say what a turned knob makes of the case."""
+    return (
+        tried.count > 0
+        and bool(tried.layers) == bool(case.layers)
+        and tried.pivot_low <= tried.pivot_high
+        and not (tried.length and tried.deflection > 0.5 * tried.length)
+    )
+
+
+def pivots(case: Case, count: int) -> np.ndarray:
+    """Pivot positions over the range, evenly (P,) [m]; one if the range is none."""
+    if case.pivot_low == case.pivot_high:
+        return np.array([case.pivot_low])
+    return np.linspace(case.pivot_low, case.pivot_high, count)

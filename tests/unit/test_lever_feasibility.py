@@ -1,0 +1,158 @@
+"""Lever-arm specs without a solution are refused before any leaf is sized, with cures."""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from springcad.errors import InfeasibleError
+from springcad.kinds.lever_arm.feasibility import (
+    SHEETS,
+    estimated_stiffness,
+    feasibility_checks,
+    full_thickness,
+    require_feasible,
+    sheet_for,
+)
+from springcad.kinds.lever_arm.inputs import case_of, fittings_of, lever_spec
+from springcad.kinds.lever_arm.sizing import size_leaf
+from springcad.spec.source import read_spec
+
+SPECS = Path(__file__).parents[2] / "specs"
+TURN = re.compile(r"(?:raise|lower) (.+) from \S+ to (?:[≥≤] )?(\S+)(?: (\S+))?(?: \(.*\))?")
+
+
+def case(name: str, *overrides: str):
+    return case_of(read_spec(SPECS / f"lever-{name}.yaml", overrides).model)
+
+
+def refusal(name: str, *overrides: str) -> InfeasibleError:
+    with pytest.raises(InfeasibleError) as refused:
+        require_feasible(case(name, *overrides))
+    return refused.value
+
+
+def size(name: str, *overrides: str):
+    model = lever_spec(read_spec(SPECS / f"lever-{name}.yaml", overrides).model)
+    return size_leaf(case_of(model), fittings_of(model))
+
+
+def cured(remedy: str, high: str) -> list[str]:
+    """The overrides that a remedy names, by its own text."""
+    changes = []
+    for part in remedy.split(" and "):
+        turn = TURN.fullmatch(part)
+        assert turn, part
+        value = f"{turn[2]} {turn[3]}" if turn[3] else turn[2]
+        if turn[1].startswith("the low end"):
+            changes.append(f"mechanism.pivot=[{value}, {high}]")
+        else:
+            changes.append(f"{turn[1]}={value}")
+    return changes
+
+
+@pytest.mark.parametrize("name", ["parabolic", "triangular", "steel", "pom"])
+def test_a_shipped_spec_is_feasible(name: str) -> None:
+    assert all(claim.status == "pass" for claim in require_feasible(case(name)))
+
+
+def test_closed_forms_of_oracle_b09() -> None:
+    """Steel, l = 50 mm, b = 15 mm, s = 10 mm, constant section: 0.753968 mm and 2.700224 N/mm."""
+    given = case(
+        "parabolic", "leaf={shape: constant, length: 50 mm, sheet_thickness: 3 mm, layers: 5}",
+        "target={spring_deflection: 10 mm}",
+    )  # fmt: skip
+    assert full_thickness(given) == pytest.approx(0.753968e-3, rel=1e-6)
+    assert estimated_stiffness(given, given.room) == pytest.approx(2700.224, rel=1e-6)
+
+
+def test_sheets_are_rounded_down() -> None:
+    assert sheet_for(2.38e-3) == 2.0e-3
+    assert sheet_for(2.0e-3) == 2.0e-3
+    assert sheet_for(0.09e-3) == 0.0
+    assert list(SHEETS) == sorted(SHEETS)
+
+
+INFEASIBLE = {
+    "beyond yield": ("parabolic", ["material.design_stress=1300 MPa"], "design stress"),
+    "thinner than can be cut": (
+        "parabolic", ["leaf={shape: constant, length: 50 mm, sheet_thickness: 3 mm}"],
+        "thickness at the clamp",
+    ),
+    "thicker than a beam": (
+        "parabolic", ["target.spring_deflection=1.5 mm", "leaf.length=70 mm"],
+        "thickness over length",
+    ),
+    "sheet too thick": ("triangular", ["leaf.sheet_thickness=4 mm"], "thickness of the sheet"),
+    "too few layers": ("parabolic", ["leaf.layers=5"], "stiffness at full stress"),
+    "too little height": ("parabolic", ["envelope.height=20 mm"], "stiffness at full stress"),
+    "pivot overloaded": (
+        "parabolic", ["mechanism.max_pivot_force=5 kN"], "force on the pivot, at its low end",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "overrides", "claim"), INFEASIBLE.values(), ids=INFEASIBLE.keys())
+def test_the_first_broken_condition_and_cures_that_work_as_printed(name, overrides, claim) -> None:
+    error = refusal(name, *overrides)
+    assert error.claim.startswith(claim)
+    assert np.isfinite([error.value, error.limit]).all()
+    assert error.remedies
+    high = "38 mm" if name == "parabolic" else "35 mm"
+    for remedy in error.remedies:
+        require_feasible(case(name, *overrides, *cured(remedy, high)))
+
+
+def test_a_spring_that_the_crank_cannot_reach_is_a_warning() -> None:
+    """000, Eq. 7: beyond q = l R/(R + s) its arcsin has no value."""
+    checks = feasibility_checks(case("parabolic", "mechanism.pivot=[5 mm, 45 mm]"))
+    assert [claim.name for claim in checks if claim.status == "warn"] == [
+        "deflection of the spring reached, at the farthest pivot"
+    ]
+
+
+def test_layers_that_the_closed_form_lets_pass_are_counted_on_the_beam() -> None:
+    """10 layers would do by the closed form; the remedy is the number that the beam needs."""
+    assert all(c.status != "fail" for c in feasibility_checks(case("parabolic", "leaf.layers=10")))
+    with pytest.raises(InfeasibleError, match="10 layers") as refused:
+        size("parabolic", "leaf.layers=10")
+    assert refused.value.remedies == ("raise leaf.layers from 10 to 11",)
+    assert size("parabolic", "leaf.layers=11").layers == 11
+
+
+def test_height_that_is_missing_is_told() -> None:
+    with pytest.raises(InfeasibleError, match="1 x 11 layers") as refused:
+        size("parabolic", "envelope.height=30 mm")
+    assert refused.value.remedies == ("raise envelope.height from 30 to 33 mm",)
+    assert size("parabolic", "envelope.height=33 mm").layers == 11
+
+
+def test_a_leaf_without_room_for_its_eye_is_refused() -> None:
+    with pytest.raises(InfeasibleError, match="too short"):
+        size("triangular", "leaf.length=16 mm", "connection.eye_wall=9 mm", "leaf.width=3 mm")
+
+
+EXTREME = [
+    ("parabolic", "leaf.length=9 m"),
+    ("parabolic", "target.spring_deflection=0.001 mm"),
+    ("parabolic", "target.spring_stiffness=0.1 N/m"),
+    ("parabolic", "target.spring_stiffness=1000000 N/mm"),
+    ("parabolic", "leaf.count=20"),
+    ("parabolic", "mechanism.lever_length=9 m"),
+    ("parabolic", "mechanism.crank_radius=0.001 mm"),
+    ("triangular", "leaf.width=9 m"),
+    ("triangular", "target.spring_deflection=35 mm"),
+]
+
+
+@pytest.mark.parametrize(("name", "override"), EXTREME)
+def test_extreme_numbers_end_in_a_verdict(name: str, override: str) -> None:
+    """Without overflow, division by zero or nan slipping through: warnings are errors here."""
+    checks = feasibility_checks(case(name, override))
+    assert all(np.isfinite([claim.value, claim.limit]).all() for claim in checks)
+    with suppress(InfeasibleError):
+        assert size(name, override).leaf.thickness > 0.0
