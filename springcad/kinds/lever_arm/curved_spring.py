@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Circle
 from springcad.geometry.outline_ops import profile_area
 from springcad.kinds.lever_arm.curved_foot import Room
@@ -26,6 +24,7 @@ from springcad.kinds.lever_arm.omega import (
     omega_response,
 )
 from springcad.kinds.lever_arm.spring_law import spring_law
+from springcad.kinds.lever_arm.stack import layer_count
 from springcad.kinds.lever_arm.straight import Fittings
 from springcad.result import Check, Dimension, Outcome, Plot, Progress, Series, Shape, Value, check
 
@@ -43,7 +42,6 @@ CLAMP_TOLERANCE = 0.02
 """Of the half's length; the stiffness changes by about three times as much at most."""
 _PASSES = 12
 _TOLERANCE = 1e-7
-_ROUND_OFF = 1e-6
 
 
 def curved_spring(
@@ -64,7 +62,7 @@ def curved_spring(
     topology, starts, seed = search
     omega = omega_case(case, fittings, topology)
     found = find_omega(omega, starts=starts, seed=seed, progress=progress)
-    layers = _layers(case, found)
+    layers = layer_count(case, case.count * found.stiffness * case.sheet)
     progress("bending the leaf through its stroke")
     leaf = _at_stiffness(case, omega, found.leaf, layers)
     width = layers * case.sheet
@@ -114,25 +112,6 @@ def omega_case(case: Case, fittings: Fittings, topology: Topology) -> OmegaCase:
         hub_radius=0.5 * fittings.pin_diameter + fittings.eye_wall,
         topology=topology,
     )
-
-
-def _layers(case: Case, found: OmegaDesign) -> int:
-    """As given, else the fewest that reach the stiffness; what would do is computed."""
-    layer = case.count * found.stiffness * case.sheet
-    enough = max(math.ceil(case.stiffness / layer * (1.0 - _ROUND_OFF)), 1)
-    layers = case.layers or enough
-    if case.stiffness and layers < enough:
-        raise InfeasibleError(
-            f"stiffness of {layers} layers at the design stress", layers * layer, case.stiffness,
-            "N/m", (f"raise leaf.layers from {layers} to {enough}", "raise optimiser.starts"),
-        )  # fmt: skip
-    height = case.count * layers * case.sheet
-    if case.height and height > case.height * (1.0 + 1e-9):
-        raise InfeasibleError(
-            f"height of {case.count} x {layers} layers", height, case.height, "m",
-            (f"raise envelope.height from {1e3 * case.height:.4g} to {1e3 * height:.4g} mm",),
-        )  # fmt: skip
-    return layers
 
 
 def _at_stiffness(case: Case, omega: OmegaCase, leaf: OmegaLeaf, layers: int) -> OmegaLeaf:

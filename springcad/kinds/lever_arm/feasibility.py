@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -28,9 +28,18 @@ from springcad.result import Check, check
 
 Shape = Literal["constant", "triangular", "parabolic", "omega"]
 
-ESTIMATE_ERROR = 0.25
+STIFFNESS_ERROR = 0.25
 """Share by which the closed form of the stiffness may be too low or too high: it knows neither
 large deflection nor shear, eye, fillet and least web (measured: 2 to 6 %)."""
+THICKNESS_ERROR = 0.1
+"""The same for thicknesses (measured: 1 to 4 %)."""
+CLEAR = 0.9
+"""Share of what closed forms allow that a remedy takes: what the beam finds then is in it."""
+THINNEST = {"constant": (1.0, 1.0), "triangular": (0.0, 0.0), "parabolic": (1.69, 1.26)}
+"""Thickness at the clamp over the least web that a leaf needs at least, closed form: at full stress
+and for a wanted stiffness. The web w near the pin of a parabola makes it stiffer: with r = w/h its
+factor is c = (2 - r^3)/3, so that E h s/(2 c l^2) has a least value, at r^3 = 1/2, and at h = w the
+leaf has twice the stiffness of the parabola."""
 THICKEST = {"constant": 0.25, "triangular": 0.08, "parabolic": 0.25}
 """Thickness over length up to which a leaf is a beam; the shear in a triangle's narrow end, of
 which the beam knows too little, is then 1.5 % of its deflection."""
@@ -44,6 +53,8 @@ SHEETS = tuple(
 """Customary thicknesses of sheet [m]; a shop may have others: leaf.sheet_thickness takes any."""
 _UTILISATION = 1.0 / 3.0
 """Largest share of σ²/2E that bending stores in a volume (paper 000, III-B)."""
+_OMEGA_FOUND = (0.05, 0.2)
+"""Shares of the enclosure's bound that omega leaves reach: nearly always, and at best."""
 
 
 @dataclass(frozen=True)
@@ -118,8 +129,9 @@ def require_feasible(case: Case) -> tuple[Check, ...]:
 
 
 def failures(case: Case) -> tuple[str, ...]:
-    """Names of the checks that fail, without the numbers in them; for use in searches."""
-    return tuple(claim.name.partition(",")[0] for claim in _checks(case) if claim.status == "fail")
+    """Names of the checks that fail or are too near to it for a remedy; without numbers."""
+    claims = _checks(case, CLEAR)
+    return tuple(claim.name.partition(",")[0] for claim in claims if claim.status == "fail")
 
 
 def full_thickness(case: Case) -> float:
@@ -152,62 +164,102 @@ def estimated_stiffness(case: Case, width: float) -> float:
     return case.count * float(stiffness(shape, case.elastic_modulus, width, case.length, sheet))
 
 
-def _checks(case: Case) -> Iterator[Check]:
-    """Every claim, without remedies; in this order the first failing one is reported."""
+def thickness_for_stiffness(case: Case) -> float:
+    """Thickness at the clamp of a stack with the wanted stiffness, closed form [m].
+
+    That of full stress where no layers of the sheet, or those that are given, have more.
+    """
+    full = full_thickness(case)
+    layer = estimated_stiffness(case, case.sheet)
+    layers = case.layers or max(1, math.ceil(case.stiffness / layer * (1.0 - 1e-9)))
+    return full * min(1.0, math.cbrt(case.stiffness / (layers * layer)))
+
+
+def _checks(case: Case, share: float = 1.0) -> Iterator[Check]:
+    """Every claim, without remedies; in this order the first failing one is reported.
+
+    With a ``share`` below 1 closed forms must hold with that share of what they allow.
+    """
     yield check("design stress against yield", case.design_stress, "<=", case.yield_strength, "Pa",
                 source="material data")  # fmt: skip
     if case.shape == "omega":
-        yield from _bound(case)
+        yield from _bound(case, share)
     else:
-        yield from _section(case)
-        yield from _reach(case)
+        yield from _section(case, share)
+        yield from _reach(case, share)
     yield from _mechanism(case)
 
 
-def _section(case: Case) -> Iterator[Check]:
+def _section(case: Case, share: float) -> Iterator[Check]:
     """Thickness that the stress allows, against what can be cut, bought and called a beam."""
     full = full_thickness(case)
     law = "2 c l² σ/(E s), c = 1/3, 1/2 or 2/3 (000, Eq. 17 for the constant section)"
     if case.shape != "triangular":
-        yield check("thickness at the clamp, closed form", full, ">=", case.min_web, "m",
-                    source=f"{law}; smallest web of the process")  # fmt: skip
+        yield from _cuttable(case, share, law)
     elif case.sheet:
-        yield check("thickness of the sheet, closed form", case.sheet, "<=", full, "m", source=law,
-                    otherwise=_estimate(case.sheet, full))  # fmt: skip
+        allowed = share * full
+        yield check("thickness of the sheet, closed form", case.sheet, "<=", allowed, "m",
+                    source=law, otherwise=_doubt(case.sheet, allowed, share, THICKNESS_ERROR),
+                    )  # fmt: skip
     else:
-        yield check("thickness of the leaf, closed form", full, ">=", SHEETS[0], "m",
+        yield check("thickness of the leaf, closed form", share * full, ">=", SHEETS[0], "m",
                     source=f"{law}; thinnest customary sheet")  # fmt: skip
     yield check("thickness over length, closed form", full / case.length, "<=",
                 THICKEST[case.shape], "1",
                 source="a beam is slender")  # fmt: skip
 
 
-def _reach(case: Case) -> Iterator[Check]:
+def _cuttable(case: Case, share: float, law: str) -> Iterator[Check]:
+    """A stack's thickness at the clamp, at full stress and as thin as the stiffness makes it."""
+    at_stress, at_stiffness = (ratio * case.min_web for ratio in THINNEST[case.shape])
+    rule = "smallest web of the process"
+    if case.shape == "parabolic":
+        rule += ", times what it takes for the web near the pin"
+    yield check("thickness at the clamp, closed form", share * full_thickness(case), ">=",
+                at_stress, "m", source=f"{law}; {rule}")  # fmt: skip
+    if not case.stiffness:
+        return
+    thin = share * thickness_for_stiffness(case)
+    yield check("thickness at the clamp for the wanted stiffness, closed form", thin, ">=",
+                at_stiffness, "m", source=f"fewest layers of the sheet, or those given; {rule}",
+                otherwise=_doubt(at_stiffness, thin, share, THICKNESS_ERROR))  # fmt: skip
+
+
+def _reach(case: Case, share: float) -> Iterator[Check]:
     """Whether the wanted stiffness fits into layers or height; nothing where both are free."""
     if not case.stiffness or not math.isfinite(case.room):
         return
-    most = estimated_stiffness(case, case.room)
+    most = share * estimated_stiffness(case, case.room)
     yield check(
         "stiffness at full stress, closed form", most, ">=", case.stiffness, "N/m",
-        source=f"{case.count} x {1e3 * case.room:.4g} mm wide; within {ESTIMATE_ERROR:.0%}",
-        otherwise=_estimate(case.stiffness, most),
+        source=f"{case.count} x {1e3 * case.room:.4g} mm wide; within {STIFFNESS_ERROR:.0%}",
+        otherwise=_doubt(case.stiffness, most, share, STIFFNESS_ERROR),
     )  # fmt: skip
 
 
-def _estimate(wanted: float, most: float) -> Literal["warn", "fail"]:
-    return "warn" if wanted <= (1.0 + ESTIMATE_ERROR) * most else "fail"
+def _doubt(wanted: float, most: float, share: float, error: float) -> Literal["warn", "fail"]:
+    """What a broken closed form means: within its error the beam decides."""
+    return "warn" if share == 1.0 and wanted <= (1.0 + error) * most else "fail"
 
 
-def _bound(case: Case) -> Iterator[Check]:
-    """No spring stores more than σ²/6E in its enclosure's volume."""
+def _bound(case: Case, share: float) -> Iterator[Check]:
+    """No spring stores more than σ²/6E in its enclosure's volume; leaves store far less."""
     if not case.stiffness or not math.isfinite(case.room):
         return
     volume = case.count * case.room * math.pi * case.radius**2
     dense = case.design_stress**2 / (2.0 * case.elastic_modulus)
     most = 2.0 * _UTILISATION * dense * volume / case.deflection**2
+    always, best = _OMEGA_FOUND
     yield check(
-        "stiffness of a full enclosure, upper bound", most, ">=", case.stiffness, "N/m",
+        "stiffness of a full enclosure, upper bound", most if share == 1.0 else always * most, ">=",
+        case.stiffness, "N/m",
         source=f"σ²/6E in {1e3 * case.count * case.room:.4g} mm of the enclosure's height",
+    )  # fmt: skip
+    yield check(
+        "stiffness that omega leaves reach, estimate", best * most, ">=", case.stiffness, "N/m",
+        source=f"{best:.0%} of that bound at best, {always:.0%} nearly always, in trials",
+        remedy="more room, layers or stress, or less deflection; only the search can tell",
+        otherwise="warn",
     )  # fmt: skip
 
 
@@ -258,10 +310,31 @@ KNOBS = (
 
 
 def case_remedies(case: Case) -> tuple[str, ...]:
-    """Changes of the spec after which every closed-form check passes, each one recomputed."""
-    return remedies(
-        case, KNOBS, lambda tried: failures(tried) if _is_spec(case, tried) else ("rules",)
+    """Changes of the spec after which every closed form holds with room for its error.
+
+    Each was recomputed as printed. Empty if closed forms already do, or if nothing was found.
+    """
+    broken = failures(case)
+    if not broken:
+        return ()
+    turned = remedies(
+        case,
+        KNOBS,
+        lambda tried: failures(tried) if _is_spec(case, tried) else (*broken, "rules of the spec"),
     )
+    return turned or tuple(_omissions(case))
+
+
+def _omissions(case: Case) -> Iterator[str]:
+    """Keys without which it works, where no number within reach does."""
+    without = {
+        "leaf.layers": replace(case, layers=0) if case.stiffness else case,
+        "envelope.height": replace(case, height=0.0),
+        "mechanism.max_pivot_force": replace(case, max_pivot_force=0.0),
+    }
+    for key, tried in without.items():
+        if not failures(tried):
+            yield f"take {key} out of the spec"
 
 
 def _is_spec(case: Case, tried: Case) -> bool:

@@ -11,7 +11,7 @@ from springcad.kinds.lever_arm.omega_rows import CLOSING
 Floats = NDArray[np.float64]
 
 FACING = 0.5 * np.pi
-"""Shortest arc between two facing places of a leaf, over their distance: half a circle."""
+"""Half a circle over its diameter."""
 
 
 def self_gap(
@@ -20,13 +20,14 @@ def self_gap(
     """Smallest gap, m, within the right half and between both halves; (S, 2) each.
 
     Two places of one half face each other if the way between them is at least half a circle about
-    their distance. The halves meet at the hub; from a thickness and a gap away from its middle
-    they count. The points' spacing does not: distances are taken to the tangents.
+    a gap of the wanted width. The halves meet at the hub; from a thickness and a gap away from its
+    middle they count. The points' spacing does not: distances are taken to the tangents.
     """
     half = 0.5 * thickness
     apart = np.abs(stations[:, None] - stations)
     own = _distances(right, right) - half[:, None] - half
-    own[apart < FACING * np.maximum(own, 0.0) + FACING * (half[:, None] + half)] = np.inf
+    reach = FACING * (half[:, None] + half + case.min_gap) + stations[1]
+    own[apart < reach] = np.inf
     other = _distances(right, left) - half[:, None] - half
     from_hub = case.hub_radius + stations
     other[from_hub[:, None] + from_hub < 2.0 * (thickness[0] + case.min_gap)] = np.inf

@@ -47,6 +47,8 @@ TOLERANCE = 1e-4
 FEASIBLE = 2e-4
 FINISHED, RESTARTED, POLISHED = 3, 3, 2
 """How many of the best are finished, how many restarts are made, and how many are polished."""
+SHAKE_STREAM = 1_000_000
+"""Of the random numbers: beyond those of any start."""
 ANGLE_SHAKE, THICKNESS_SHAKE = 0.25, 0.15
 """Size of the random change before a restart, in rad and as a share."""
 
@@ -96,7 +98,7 @@ def _linear_search(
         search(start_point(case, seed, index), f"start {index + 1} of {starts}")
     for index in range(RESTARTED):
         for rank, best in enumerate(_best(found, 2, ROUGH)):
-            shaken = _shaken(best.variables, seed, starts + 2 * index + rank)
+            shaken = _shaken(best.variables, seed, SHAKE_STREAM + 2 * index + rank)
             search(shaken, f"restart {2 * index + rank + 1} of {2 * RESTARTED}")
     progress("finishing the best searches")
     rough = _best(found, FINISHED, ROUGH)

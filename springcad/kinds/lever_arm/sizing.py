@@ -8,14 +8,22 @@ takes the width. A sheet has the thickness it is sold with, so the stress of a t
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.lever_arm.feasibility import Case, full_thickness, sheet_for
+from springcad.kinds.knobs import remedies
+from springcad.kinds.lever_arm.feasibility import (
+    KNOBS,
+    Case,
+    case_remedies,
+    failures,
+    full_thickness,
+    sheet_for,
+)
+from springcad.kinds.lever_arm.stack import higher_envelope, layer_count
 from springcad.kinds.lever_arm.straight import Fittings, StraightLeaf, StraightShape
 from springcad.kinds.lever_arm.straight_beam import Elastic, LeafStates, leaf_states
 from springcad.mechanics.leaf import SHAPES, greatest_stiffness
@@ -23,8 +31,6 @@ from springcad.mechanics.leaf import SHAPES, greatest_stiffness
 _PASSES = 20
 _TOLERANCE = 1e-7
 """Of stress and stiffness, relative."""
-_ROUND_OFF = 1e-6
-"""Share of a layer that is not worth another one."""
 _SHAPES: dict[str, StraightShape] = {
     "constant": "constant",
     "triangular": "triangular",
@@ -65,77 +71,76 @@ def size_leaf(case: Case, fittings: Fittings) -> SizedLeaf:
             for the stress, or the leaf becomes thinner than can be cut.
     """
     try:
-        sized = _triangle(case, fittings) if case.shape == "triangular" else _stack(case, fittings)
+        return _triangle(case, fittings) if case.shape == "triangular" else _stack(case, fittings)
     except ValueError as error:
-        claim = f"length of the leaf ({error})"
-        raise InfeasibleError(
-            claim, case.length, case.length, "m", ("raise leaf.length",)
-        ) from error
+        raise _too_short(case, fittings, str(error)) from error
     except ArithmeticError as error:
         claim = f"deflection that the beam follows ({error})"
         raise InfeasibleError(
-            claim, case.deflection, case.deflection, "m", ("lower target.spring_deflection",)
+            claim, case.deflection, case.deflection, "m", case_remedies(case)
         ) from error
-    least = case.min_web if case.shape != "triangular" else 0.0
-    if sized.leaf.thickness < least:
+
+
+def _too_short(case: Case, fittings: Fittings, reason: str) -> InfeasibleError:
+    """With the length at which eye and fillets have room, tried on the outline."""
+
+    def faults(tried: Case) -> tuple[str, ...]:
+        try:
+            _ = _first_guess(tried, fittings).plan
+        except ValueError:
+            return ("plan", *failures(tried))
+        return failures(tried)
+
+    longer = remedies(case, [knob for knob in KNOBS if knob.target == "length"], faults)
+    return InfeasibleError(f"length of the leaf ({reason})", case.length, case.length, "m", longer)
+
+
+def _first_guess(case: Case, fittings: Fittings) -> StraightLeaf:
+    """As thick as the closed form says; a stack of one layer."""
+    width = case.sheet
+    if case.shape == "triangular":
+        width = case.width or min(case.room, 0.5 * case.length)
+    return StraightLeaf(_SHAPES[case.shape], case.length, full_thickness(case), width, fittings)
+
+
+def _require_thickness(case: Case, leaf: StraightLeaf, purpose: str) -> None:
+    if leaf.thickness < case.min_web:
         raise InfeasibleError(
-            "thickness at the clamp, for the wanted stiffness", sized.leaf.thickness, least, "m",
-            ("lower leaf.sheet_thickness: one layer has more stiffness than is wanted",),
+            f"thickness at the clamp, {purpose}", leaf.thickness, case.min_web, "m",
+            case_remedies(case),
         )  # fmt: skip
-    return sized
 
 
 def _stack(case: Case, fittings: Fittings) -> SizedLeaf:
     """Thickness by the stress; layers, then a smaller thickness, by the stiffness."""
-    one = StraightLeaf(_SHAPES[case.shape], case.length, full_thickness(case), case.sheet, fittings)
-    full = _at_stress(case, one)
+    full = _at_stress(case, _first_guess(case, fittings))
+    _require_thickness(case, full, "at the design stress")
     layer = case.count * _loaded(case, full).stiffness
-    layers = case.layers or math.ceil(case.stiffness / layer * (1.0 - _ROUND_OFF))
+    layers = layer_count(case, layer)
     wide = replace(full, width=layers * case.sheet)
-    most = layers * layer
-    _require_layers(case, layer, layers)
     leaf = _at_stiffness(case, wide, _by_thickness) if case.stiffness else wide
-    return _sized(case, leaf, layers, full.thickness, most)
-
-
-def _require_layers(case: Case, layer: float, layers: int) -> None:
-    """Layers and height must do for the wanted stiffness; what would do is computed."""
-    enough = math.ceil(case.stiffness / layer * (1.0 - _ROUND_OFF))
-    if case.stiffness and layers < enough:
-        raise InfeasibleError(
-            f"stiffness of {layers} layers at the design stress", layers * layer, case.stiffness,
-            "N/m", (f"raise leaf.layers from {layers} to {enough}",),
-        )  # fmt: skip
-    height = case.count * layers * case.sheet
-    if case.height and height > case.height * (1.0 + 1e-9):
-        raise InfeasibleError(
-            f"height of {case.count} x {layers} layers", height, case.height, "m",
-            (f"raise envelope.height from {1e3 * case.height:.4g} to {1e3 * height:.4g} mm",),
-        )  # fmt: skip
+    _require_thickness(case, leaf, "for the wanted stiffness")
+    return _sized(case, leaf, layers, full.thickness, layers * layer)
 
 
 def _triangle(case: Case, fittings: Fittings) -> SizedLeaf:
     """Thickness of a sheet that the stress allows; the width by the stiffness, or as given."""
-    closed = full_thickness(case)
-    guess = case.width or min(case.room, 0.5 * case.length)
-    start = StraightLeaf("triangular", case.length, closed, guess, fittings)
-    full = _at_stress(case, start)
+    full = _at_stress(case, _first_guess(case, fittings))
     sheet = case.sheet or sheet_for(full.thickness)
     leaf = replace(full, thickness=sheet)
     if case.stiffness:
         leaf = _at_stiffness(case, leaf, _by_width)
     stress = float(_loaded(case, leaf).peak_stress[-1])
     if stress > case.design_stress * (1.0 + 1e-6):
-        thinner = sheet_for(full.thickness)
         raise InfeasibleError(
             f"stress of a sheet of {1e3 * sheet:.4g} mm", stress, case.design_stress, "Pa",
-            (f"lower leaf.sheet_thickness from {1e3 * sheet:.4g} to {1e3 * thinner:.4g} mm",),
+            case_remedies(case),
         )  # fmt: skip
-    if case.height and case.count * leaf.width > case.height * (1.0 + 1e-9):
-        height = math.ceil(1e5 * case.count * leaf.width) / 1e5
+    higher = higher_envelope(case, case.count * leaf.width)
+    if higher:
         raise InfeasibleError(
             f"height of {case.count} leaves", case.count * leaf.width, case.height, "m",
-            (f"raise envelope.height from {1e3 * case.height:.4g} to {1e3 * height:.6g} mm",),
+            tuple(higher),
         )  # fmt: skip
     most = case.count * _loaded(case, replace(leaf, thickness=full.thickness)).stiffness
     return _sized(case, leaf, 1, full.thickness, most)
@@ -171,22 +176,24 @@ def _at_stress(case: Case, leaf: StraightLeaf) -> StraightLeaf:
     """The leaf as thick as the design stress allows: its stress is nearly as its thickness."""
     for _ in range(_PASSES):
         share = case.design_stress / float(_loaded(case, leaf).peak_stress[-1])
-        if abs(share - 1.0) <= _TOLERANCE:
+        if abs(share - 1.0) <= _TOLERANCE or _hopeless(case, leaf):
             return leaf
         leaf = replace(leaf, thickness=share * leaf.thickness)
     return leaf
 
 
+def _hopeless(case: Case, leaf: StraightLeaf) -> bool:
+    """Far thinner than can be cut: the web near the pin, not the thickness, then decides."""
+    return leaf.bends_in_sheet and leaf.thickness < 0.5 * case.min_web
+
+
 def _at_stiffness(
     case: Case, leaf: StraightLeaf, by: Callable[[StraightLeaf, float], StraightLeaf]
 ) -> StraightLeaf:
-    """The leaf with the wanted stiffness at s_max; ``by`` changes its stiffness by a factor.
-
-    It is given up where the leaf becomes far thinner than can be cut.
-    """
+    """The leaf with the wanted stiffness at s_max; ``by`` changes its stiffness by a factor."""
     for _ in range(_PASSES):
         share = case.stiffness / (case.count * _loaded(case, leaf).stiffness)
-        if abs(share - 1.0) <= _TOLERANCE or leaf.thickness < 0.5 * case.min_web:
+        if abs(share - 1.0) <= _TOLERANCE or _hopeless(case, leaf):
             return leaf
         leaf = by(leaf, share)
     return leaf
