@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 from springcad.kinds.leaf_2dof.case import Case
@@ -18,7 +19,8 @@ def shipped_case(name: str, *overrides: str) -> Case:
     return case_of(read_spec(SPECS / f"leaf2-{name}.yaml", overrides).model)
 
 
+@cache
 def made_leaves(name: str, *overrides: str) -> MadeLeaves:
-    """The same, designed."""
+    """The same, designed; once for all tests."""
     spec = read_spec(SPECS / f"leaf2-{name}.yaml", overrides)
     return make_leaves(leaf_spec(spec.model), lambda _: None)

@@ -19,7 +19,9 @@ from springcad.kinds.leaf_2dof.feasibility import (
     feasibility_checks,
     knobs_of,
     require_feasible,
+    setup_of,
 )
+from springcad.kinds.leaf_2dof.unit import stroke
 
 TURN = re.compile(r"(?:raise|lower) (.+) from \S+ to (?:[≥≤] )?(\S+?)( \S+)?(?: \(.*\))?")
 
@@ -59,6 +61,7 @@ INFEASIBLE = {
     ),
     "stress": ("paper", ["target.deflection=17 deg"], "stress at the clamp"),
     "bend angle": ("paper", ["leaf.max_bend_angle=10 deg"], "bend angle"),
+    "held inboard": ("paper", ["unit.clamp=inboard"], "stress at the clamp"),
     "guide": ("paper", ["leaf.effective_length=[5.1 mm, 45 mm]"], "gap between roller and guide"),
     "room": ("paper", ["envelope.leaf_length=65 mm"], "length of the whole leaf"),
     "range too short": (
@@ -79,13 +82,24 @@ INFEASIBLE = {
 def test_the_first_broken_condition_is_told_and_every_remedy_cures(
     name: str, overrides: list[str], claim: str
 ) -> None:
+    """Estimates are wrong by up to 1 %: what is printed cures on the exact unit all the same, and
+    a sized leaf, whose stress may be 0.6 % more than estimated, may then still be longer.
+    """
     case = shipped_case(name, *overrides)
+    start = time.process_time()  # other tests may run beside this one
     error = refusal(case)
+    assert time.process_time() - start < 1.0
     assert error.claim.startswith(claim)
     assert np.isfinite([error.value, error.limit]).all()
     assert error.remedies
     for remedy in error.remedies:
-        assert failures(cured(case, remedy)) == (), remedy
+        better = cured(case, remedy)
+        assert failures(replace(better, stress_factor=1.006)) == (), remedy
+        if not better.is_sized:
+            setup = setup_of(better)
+            found = stroke(setup.leaf, setup.lever, setup.longest, better.deflection)
+            assert found.stress <= better.design_stress, remedy
+            assert found.bend_angle <= better.max_bend_angle, remedy
 
 
 def test_remedies_stay_within_what_a_spec_may_say() -> None:
@@ -123,11 +137,3 @@ def test_extreme_numbers_end_in_a_verdict(name: str, change: dict[str, object]) 
     """Without overflow, division by zero or nan slipping through: warnings are errors here."""
     checks = feasibility_checks(replace(shipped_case(name), leaves=2, **change))
     assert all(claim.status != "pass" or np.isfinite(claim.value) for claim in checks)
-
-
-def test_checks_take_no_time() -> None:
-    """Processor time, since other tests may run beside this one."""
-    case = shipped_case("design", "envelope.leaf_length=50 mm")
-    start = time.process_time()
-    feasibility_checks(case)
-    assert time.process_time() - start < 1.0

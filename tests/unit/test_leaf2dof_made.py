@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -21,14 +23,11 @@ from springcad.kinds.leaf_2dof.made import MadeLeaves, at_length
 from springcad.kinds.leaf_2dof.parts import Planform, leaf_profile
 from springcad.kinds.leaf_2dof.spec import TEMPLATE
 from springcad.kinds.leaf_2dof.summary import summarise
+from springcad.kinds.leaf_2dof.unit import rest_stiffness, stroke
 from springcad.kinds.leaf_2dof.views import leaf_views
+from springcad.materials.data import material
 from springcad.result import Result
 from springcad.spec.source import read_spec
-
-
-@cache
-def paper() -> MadeLeaves:
-    return made_leaves("paper")
 
 
 @cache
@@ -36,9 +35,12 @@ def paper_result() -> Result:
     return summarise(read_spec(SPECS / "leaf2-paper.yaml"), paper())
 
 
-@cache
+def paper() -> MadeLeaves:
+    return made_leaves("paper")
+
+
 def sized(clamp: str) -> MadeLeaves:
-    return made_leaves("design", f"unit.clamp={clamp}")
+    return made_leaves("design", *([] if clamp == "outboard" else [f"unit.clamp={clamp}"]))
 
 
 def test_the_stiffness_range_of_the_paper() -> None:
@@ -79,6 +81,45 @@ def test_what_yield_leaves_of_the_paper_s_torque_and_energy() -> None:
     advice = " ".join(paper_result().advice)
     assert "4.44 J" in advice
     assert "1.198e+04 MPa, 16.5 times the yield strength" in advice
+
+
+def test_what_guide_and_plate_make_of_the_stiffness_is_told_at_both_ends() -> None:
+    """A smooth guide makes the leaf 0.57 b longer, a plate is 9.9 % stiffer."""
+    (words,) = (line for line in paper_result().assumptions if "smooth faces" in line)
+    for length, words_there in ((10.0, "at 10 mm"), (45.0, "at 45 mm")):
+        soft = 140.4 * (10.0 / (length + 0.57 * 0.6)) ** 3
+        stiff = 140.4 * (10.0 / length) ** 3 / 0.91
+        found = re.search(rf"(\S+) to (\S+) N\*m/rad {words_there}", words)
+        assert found
+        assert [float(found[1]), float(found[2])] == pytest.approx([soft, stiff], rel=4e-3)
+
+
+def test_another_material_has_the_safety_factor_that_is_told() -> None:
+    """Of the thickness told, the exact unit has the stiffness range, and yield over its stress."""
+    made = paper()
+    (words,) = (line for line in paper_result().advice if "With the same width" in line)
+    found = re.search(r"leaf of (\S+), (\S+) mm thick, .* factor of (\S+) against yield", words)
+    assert found
+    other = material(found[1])
+    leaf = replace(
+        made.setup.leaf,
+        thickness=float(found[2]) * MM,
+        elastic_modulus=other.elastic_modulus.value,
+    )
+    for length in (made.setup.shortest, made.setup.longest):
+        at = made.setup.lever, length
+        assert float(rest_stiffness(leaf, *at) / rest_stiffness(made.setup.leaf, *at)) == (
+            pytest.approx(1.0, rel=1e-3)
+        )
+    stress = float(stroke(leaf, *at, made.case.deflection).stress)
+    assert other.yield_strength.value / stress == pytest.approx(float(found[3]), rel=5e-3)
+
+
+def test_the_life_is_told_of_shorter_lengths_too() -> None:
+    """The bend angle ends the longest stroke at 576 MPa; shorter leaves reach the 592 allowed."""
+    told = {line.label: line for line in paper_result().outcomes}
+    assert "life at the stress at the clamp at shorter lengths" in told
+    assert float(np.max(paper().strokes.stress)) == pytest.approx(592e6, rel=1e-6)
 
 
 def test_the_exact_unit_is_told_beside_the_paper_s() -> None:
@@ -150,6 +191,10 @@ def test_views_show_the_bent_leaf_resting_on_the_turned_roller(clamp: str) -> No
         assert leaf.area == pytest.approx(
             made.planform.length * made.setup.leaf.thickness, rel=1e-3
         )
+        travel = [line for line in view.dimensions if line.label == "travel of the guide"]
+        lengths = [np.hypot(*np.subtract(line.end, line.start)) for line in travel]
+        moved_by = made.setup.longest - made.setup.shortest
+        assert lengths == ([] if "longest" in view.title else [pytest.approx(moved_by)])
         gap = leaf.distance(shapely.Point(roller.center)) - roller.radius
         assert gap == pytest.approx(0.0, abs=2e-6)
 

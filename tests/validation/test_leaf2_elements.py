@@ -61,7 +61,7 @@ def test_the_beam_and_its_moving_contact_agree_with_finite_elements(
 @cache
 def written(torque_factor: float = 1.0, drawn_length: float = 0.0) -> WrittenDesign:
     """The paper's unit at one effective length, as a report tells it."""
-    length, leaves = 20 * MM, 2
+    length, leaves = 15 * MM, 2
     found = stroke(PAPER_LEAF, PAPER_LEVER, length, np.linspace(0, 3.0, 13) * DEGREE)
     whole = GUIDE + length + OVERHANG
     corners = np.array([[0, -5], [1, -5], [1, 5], [0, 5]]) * [drawn_length or whole, MM]
@@ -97,20 +97,14 @@ def written(torque_factor: float = 1.0, drawn_length: float = 0.0) -> WrittenDes
     )
 
 
-def test_the_judge_agrees_with_a_right_report() -> None:
-    judgement = judge_leaf(written(), lambda _: None)
-    assert len(judgement.comparisons) == 3
-    for comparison in judgement.comparisons:
-        assert np.all(np.abs(comparison.differences) < comparison.tolerance)
-    assert [check.status for check in judgement.checks] == ["pass"] * 3
-
-
-def test_the_judge_finds_a_wrong_torque_and_a_wrong_drawing() -> None:
+def test_the_judge_finds_a_wrong_torque_and_a_wrong_drawing_and_agrees_with_the_rest() -> None:
     judgement = judge_leaf(written(1.03, 46 * MM), lambda _: None)
-    torque = judgement.comparisons[0]
+    torque, force, stress = judgement.comparisons
     np.testing.assert_allclose(torque.differences, -0.03, atol=2e-3)
     assert np.all(np.abs(torque.differences) > TOLERANCE)
-    assert judgement.checks[0].status == "fail"
+    for comparison in (force, stress):
+        assert np.all(np.abs(comparison.differences) < 0.4 * comparison.tolerance)
+    assert [check.status for check in judgement.checks] == ["fail", "pass", "pass"]
 
 
 def test_a_report_without_its_numbers_is_not_judged() -> None:

@@ -79,3 +79,8 @@ class Setup:
     leaves: int
     shortest: float
     longest: float
+
+
+def in_mm(length: float) -> str:
+    """A length as people read it."""
+    return f"{1e3 * length:.4g} mm"

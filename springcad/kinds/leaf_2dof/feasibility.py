@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from springcad.kinds.feasible import advised, require_all
 from springcad.kinds.knobs import Knob, remedies
 from springcad.kinds.leaf_2dof import estimate, paper_unit
-from springcad.kinds.leaf_2dof.case import END_MARGIN, Case, Setup
+from springcad.kinds.leaf_2dof.case import END_MARGIN, Case, Setup, in_mm
 from springcad.kinds.leaf_2dof.sizing import approach, closed_form_setup
 from springcad.kinds.leaf_2dof.spec import MOST_LEAVES
 from springcad.kinds.leaf_2dof.unit import rest_stiffness
@@ -88,8 +89,29 @@ def _is_spec(case: Case) -> bool:
 
 
 def case_remedies(case: Case) -> tuple[str, ...]:
-    """Changes of the spec after which every closed-form check passes, each one recomputed."""
-    return remedies(case, knobs_of(case), failures)
+    """Changes of the spec after which every check passes, each one recomputed.
+
+    An estimate that fails must then keep its limit by its error, so that the exact unit does too;
+    one that is within it of a limit to begin with need not.
+    """
+    close = set(failures(_cautious(case))).difference(failures(case))
+
+    def left(tried: Case) -> tuple[str, ...]:
+        unsure = failures(_cautious(tried))
+        still = failures(tried) if close.intersection(unsure) else ()
+        return tuple(name for name in unsure if name not in close or name in still)
+
+    return remedies(case, knobs_of(case), left)
+
+
+def _cautious(case: Case) -> Case:
+    """The case with its estimates taken to be wrong by their error, to the bad side."""
+    margin = 1.0 + estimate.ESTIMATE_ERROR
+    return replace(
+        case,
+        stress_factor=max(case.stress_factor, margin),
+        max_bend_angle=case.max_bend_angle / margin**2,  # one is what the check lets pass
+    )
 
 
 def _checks(case: Case, setup: Setup) -> tuple[Check, ...]:
@@ -115,9 +137,9 @@ def _stiffness(case: Case, setup: Setup) -> tuple[Check, ...]:
     )
     source = f"003, Eq. 16, with shear, {setup.leaves} leaves; within {STIFFNESS_TOLERANCE:.0%}"
     return (
-        check(f"least stiffness at rest, length {_mm(setup.longest)}", least, "<=",
+        check(f"least stiffness at rest, length {in_mm(setup.longest)}", least, "<=",
               (1.0 + STIFFNESS_TOLERANCE) * case.least_stiffness, "N*m/rad", source=source),
-        check(f"greatest stiffness at rest, length {_mm(setup.shortest)}", most, ">=",
+        check(f"greatest stiffness at rest, length {in_mm(setup.shortest)}", most, ">=",
               (1.0 - STIFFNESS_TOLERANCE) * case.greatest_stiffness, "N*m/rad", source=source),
     )  # fmt: skip
 
@@ -128,7 +150,7 @@ def _bending(case: Case, setup: Setup) -> tuple[Check, ...]:
     bent = estimate.bend(setup.leaf, setup.lever, length, angle)
     stress = case.stress_factor * estimate.stress(setup.leaf, setup.lever, length, angle)
     slope = math.inf if bent is None else bent.slope
-    where = f"at {math.degrees(angle):.4g} deg and length {_mm(length)}"
+    where = f"at {math.degrees(angle):.4g} deg and length {in_mm(length)}"
 
     def estimated(name: str, value: float, limit: float, unit: str, error: float) -> Check:
         near = value <= (1.0 + error) * limit
@@ -159,7 +181,7 @@ def _room(case: Case, setup: Setup) -> tuple[Check, ...]:
     )
     turned = approach(case, min(reached, case.deflection))
     claims: tuple[Check, ...] = (
-        check(f"gap between roller and guide, length {_mm(setup.shortest)}",
+        check(f"gap between roller and guide, length {in_mm(setup.shortest)}",
               setup.shortest - case.roller_radius - turned, ">=", case.clearance, "m",
               source="L - r, less the roller's approach; a guide as high as the roller; smallest "
               "gap of the process"),
@@ -171,10 +193,6 @@ def _room(case: Case, setup: Setup) -> tuple[Check, ...]:
                   source="mount, guide, longest effective length, travel of the contact, end"),
         )  # fmt: skip
     return claims
-
-
-def _mm(length: float) -> str:
-    return f"{1e3 * length:.4g} mm"
 
 
 _ALWAYS = (

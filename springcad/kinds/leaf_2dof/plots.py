@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from springcad.kinds.leaf_2dof import paper_unit
+from springcad.kinds.leaf_2dof.case import in_mm
 from springcad.kinds.leaf_2dof.made import MadeLeaves, at_length
 from springcad.kinds.leaf_2dof.unit import rest_stiffness
 from springcad.result import Plot, Series
@@ -28,7 +29,7 @@ def _torque(made: MadeLeaves) -> Plot:
     """Curves of one length have one colour: there are as many lengths as colours."""
     n, leaf, lever = made.setup.leaves, made.setup.leaf, made.setup.lever
     strokes = [at_length(made.strokes, index) for index in range(len(made.strokes.length))]
-    words = [f"{1e3 * float(s.length[0]):.4g} mm" for s in strokes]
+    words = [in_mm(float(s.length[0])) for s in strokes]
     exact = [Series(label, s.angle, n * s.torque) for label, s in zip(words, strokes, strict=True)]
     paper = [
         Series(f"{label}, Eq. 14", s.angle,

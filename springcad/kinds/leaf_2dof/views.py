@@ -7,6 +7,7 @@ between two leaves, one for each direction; the guide takes both and fills the r
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,8 +72,18 @@ def _unit(made: MadeLeaves, index: int, words: str) -> View:
             Dimension("effective length", "linear", (R, r), (here, r)),
             Dimension("guide", "linear", (here, 2.0 * r + b), (far, 2.0 * r + b)),
             Dimension("between the leaves", "linear", (here, -r), (here, r)),
+            *_travel(made, length),
         ),
     )
+
+
+def _travel(made: MadeLeaves, length: float) -> Iterator[Dimension]:
+    """Of the guide to the mount, which it touches at the longest effective length."""
+    plan = made.planform
+    reached, most = (_along(made, at + plan.guide) for at in (length, plan.longest))
+    if reached != most:
+        y = -2.0 * made.setup.lever.roller_radius - made.setup.leaf.thickness
+        yield Dimension("travel of the guide", "linear", (reached, y), (most, y))
 
 
 def _along(made: MadeLeaves, distance: float) -> float:
