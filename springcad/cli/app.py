@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from springcad import __version__
+from springcad.cli.calibrate import calibrate
 from springcad.cli.check import check
 from springcad.cli.compensate import compensate
 from springcad.cli.design import design
@@ -37,6 +38,7 @@ for _command in (
     check,
     verify,
     compensate,
+    calibrate,
     preflight,
     init,
     schema,

@@ -55,6 +55,8 @@ def _verify(path: Path, deck: bool, as_json: bool, progress: Progress) -> dict[s
     except SpringcadError as error:
         say(failure_text(error, path))
         return entry | {"exit_code": error.exit_code, "error": failure_data(error)}
+    if deck and not judged.decks:
+        say(f"{judged.name}: no input deck is written; its second opinion cannot be told in one")
     if not as_json:
         print_judgement(
             judged.name, judged.judgement, judged.checks, judged.decks, result_console()

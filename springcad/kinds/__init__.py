@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Protocol, cast
 
 if TYPE_CHECKING:
+    from springcad.kinds.calibrating import Calibration, Stiffness
     from springcad.result import Check, Judgement, Progress, Result
     from springcad.spec.common import CommonSpec
     from springcad.spec.source import Spec
@@ -74,6 +75,16 @@ class CompensatingKind(Kind, Protocol):
         ...
 
 
+class CalibratingKind(Kind, Protocol):
+    """A kind of which a bench test can say what the next design should take for granted."""
+
+    def calibrate_design(
+        self, design: WrittenDesign, curve: TorqueFile, stiffness: Stiffness, progress: Progress
+    ) -> Calibration:
+        """What the test of a written design tells; ``SpecError`` if it is bad or too little."""
+        ...
+
+
 def load_kind(name: str) -> Kind:
     """The package of the kind ``name``; KeyError for an unknown name."""
     package, _ = KINDS[name]
@@ -84,3 +95,9 @@ def compensating_kind(name: str) -> CompensatingKind | None:
     """The same for a kind that offers compensation; None for one that does not."""
     kind = load_kind(name)
     return cast(CompensatingKind, kind) if hasattr(kind, "compensate_design") else None
+
+
+def calibrating_kind(name: str) -> CalibratingKind | None:
+    """The same for a kind that offers calibration; None for one that does not."""
+    kind = load_kind(name)
+    return cast(CalibratingKind, kind) if hasattr(kind, "calibrate_design") else None

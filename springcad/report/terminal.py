@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from springcad.kinds.calibrating import Calibration
 from springcad.report.display import (
     format_check,
     format_deviation,
@@ -58,6 +59,34 @@ def print_judgement(
     print_checks(checks, "Checks", console)
     _print_list("Assumed", judgement.assumptions, console)
     _print_files(files, console)
+
+
+def print_calibration(found: Calibration, file: Path, console: Console) -> None:
+    """Print what a bench test has told; ``file`` is the calibration file that was written."""
+    head = (
+        f"{found.design} ({found.kind}): calibrated by {found.used} of {found.points} points; "
+        f"{found.scatter:.2%} of the torque is left, {found.designed_scatter:.2%} with the numbers "
+        "of the design"
+    )
+    _print(console, head, "bold")
+    table = _table(console, "Fitted")
+    table.add_column("number", overflow="fold")
+    for heading in ("value", "design", "standard error", "model error"):
+        table.add_column(heading, no_wrap=True)
+    for entry in found.estimates:
+        if not entry.held:
+            numbers = (entry.value, entry.designed, entry.standard_error, entry.model_error)
+            cells = (entry.name, *(format_value(number, entry.unit) for number in numbers))
+            table.add_row(*(_text(console, cell) for cell in cells))
+    console.print(table)
+    held = [
+        f"{entry.name}, held at {format_value(entry.value, entry.unit)}: {entry.held}"
+        for entry in found.estimates
+        if entry.held
+    ]
+    _print_list("Not fitted", held, console)
+    _print_list("To know", found.notes, console)
+    _print_files([file], console)
 
 
 def print_checks(checks: Sequence[Check], title: str, console: Console) -> None:

@@ -46,7 +46,7 @@ class CurvePoints:
         faults: list[Fault] = []
         if isinstance(value, str):
             folder = (info.context or {}).get(FOLDER, FilePath())
-            pairs = read_pairs(folder / _beside(value), (self.over, self.of), faults)
+            pairs = read_pairs(folder / beside(value), (self.over, self.of), faults)
         elif isinstance(value, list):
             pairs = list(self._listed(value, faults))
         else:
@@ -109,9 +109,9 @@ def _unit(column: Column) -> str:
     return column.quantity.dimension.unit
 
 
-def _beside(name: str) -> FilePath:
-    """The path of a file that goes with its spec wherever that goes."""
+def beside(name: str, what: str = "a CSV file") -> FilePath:
+    """The path of a file that goes with its spec wherever that goes; ValueError for any other."""
     path = FilePath(name)
     if not path.name or path.is_absolute() or ".." in path.parts or UNSAFE.search(name):
-        raise ValueError("must be a CSV file beside the spec file or in a folder below it")
+        raise ValueError(f"must be {what} beside the spec file or in a folder below it")
     return path

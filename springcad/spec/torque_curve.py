@@ -7,10 +7,11 @@ angle [deg], torque [N*m]
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path as FilePath
-from typing import cast
+from typing import TypeAlias, cast
 
 from springcad.errors import Problem
 from springcad.spec.common import Quantity
@@ -27,6 +28,11 @@ COLUMNS = (
     Column("torque", Quantity(TORQUE, "0 N*m", "1000000 N*m")),
 )
 """Magnitudes, of one direction."""
+BENCH_COLUMNS = (
+    Column("angle", Quantity(ANGLE, "-90 deg", "90 deg")),
+    Column("torque", Quantity(TORQUE, "-1000000 N*m", "1000000 N*m")),
+)
+MAX_BENCH_POINTS = 20_000
 
 
 @dataclass(frozen=True)
@@ -35,7 +41,8 @@ class TorqueFile:
 
     Attributes:
         shown: its name in messages.
-        points: angle [rad] and torque [N m]: ascending, the torque from its first that is not 0.
+        points: angle [rad] and torque [N m]. Of ``read_torque_file`` they ascend, the torque from
+            its first that is not 0; of ``read_bench_file`` they are as recorded.
         places: where the angle of each point stands.
     """
 
@@ -60,21 +67,44 @@ def read_torque_file(path: FilePath) -> TorqueFile:
 
     Raises SpecError with every problem, in the order of the file.
     """
+    return _read(path, COLUMNS, MAX_POINTS, _ascending)
+
+
+def read_bench_file(path: FilePath) -> TorqueFile:
+    """What a bench test recorded: signed angles and torques, in the order of the file.
+
+    Raises SpecError with every problem, in the order of the file.
+    """
+    return _read(path, BENCH_COLUMNS, MAX_BENCH_POINTS, _as_recorded)
+
+
+_Chosen: TypeAlias = Callable[[list[Pair], list[Fault]], tuple[Points, tuple[Place, ...]]]
+
+
+def _read(path: FilePath, columns: tuple[Column, Column], most: int, chosen: _Chosen) -> TorqueFile:
+    """The curve of at most ``most`` points that are as ``chosen`` wants them."""
     shown = printable(path, longest=500)
     text, faults = read_text(path, shown), list[Fault]()
     try:
-        pairs = pairs_in(text, shown, COLUMNS, faults)
+        pairs = pairs_in(text, shown, columns, faults)
     except FaultsError as error:
         raise spec_error(_problem(fault) for fault in error.faults) from error
-    if len(pairs) > MAX_POINTS:
-        place = pairs[MAX_POINTS].places[0]
-        faults.append((place, f"more than {MAX_POINTS} points; give fewer"))
-    points, places = _ascending(pairs[:MAX_POINTS], faults)
+    if len(pairs) > most:
+        place = pairs[most].places[0]
+        faults.append((place, f"more than {most} points; give fewer"))
+    points, places = chosen(pairs[:most], faults)
     if not faults and not points:
         faults.append((Place(shown, 1, 1), "has no points below its first line"))
     if faults:
         raise spec_error(_problem(fault) for fault in faults)
     return TorqueFile(shown, points, places)
+
+
+def _as_recorded(pairs: list[Pair], faults: list[Fault]) -> tuple[Points, tuple[Place, ...]]:
+    """The points; those that are none go to ``faults``."""
+    read = [(pair.numbers(BENCH_COLUMNS, faults), cast(Place, pair.places[0])) for pair in pairs]
+    known = [(point, place) for point, place in read if point is not None]
+    return tuple(point for point, _ in known), tuple(place for _, place in known)
 
 
 def _problem(fault: Fault) -> Problem:

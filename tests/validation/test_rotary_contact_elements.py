@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from rotary_cases import spring_of, written_of
+from sector_cases import rough_cycle
 
 from springcad.kinds.rotary_flexure import judge
 from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
@@ -125,18 +126,10 @@ def test_ten_times_the_contact_penalty_changes_the_torque_by_less_than_a_thousan
 @pytest.mark.slow
 def test_elements_with_friction_load_and_unload_as_the_beam_does() -> None:
     """S1 with a coefficient of 0.2, to the full deflection and back: both curves within 1 %."""
-    spring = written_spring(written_of("S1"))
-    sector = sector_contact(spring, 1)
-    assert sector.model.contact is not None
-    rough = replace(sector.model.contact, friction=0.2)
-    sector = replace(sector, model=replace(sector.model, contact=rough))
-    up = np.linspace(0.125, 1.0, 8) * spring.deflection
-    turns = turn_through(sector, [*up, *up[-2:2:-1]])
-    assert len(turns) == 12
-    found = np.array([torque(sector, turn) for turn in turns])
+    angles, found = rough_cycle("S1", 0.2)
+    assert len(found) == 12
     loop = spring_of("S1", "camshaft.friction=0.2").strokes[0].friction
     assert loop is not None
-    angles = np.array([turn.angle for turn in turns])
     np.testing.assert_allclose(
         found[:8], np.interp(angles[:8], loop.angle, loop.loading), rtol=0.01
     )

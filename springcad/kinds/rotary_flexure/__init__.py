@@ -12,11 +12,21 @@ from springcad.kinds.rotary_flexure.spec import SPEC_MODEL, TEMPLATE
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from springcad.kinds.calibrating import Calibration, Stiffness
     from springcad.result import Check, Judgement, Progress, Result
     from springcad.spec.source import Spec
+    from springcad.spec.torque_curve import TorqueFile
     from springcad.written import WrittenDesign
 
-__all__ = ["SPEC_MODEL", "TEMPLATE", "check_spec", "design_spec", "judge_decks", "judge_design"]
+__all__ = [
+    "SPEC_MODEL",
+    "TEMPLATE",
+    "calibrate_design",
+    "check_spec",
+    "design_spec",
+    "judge_decks",
+    "judge_design",
+]
 
 
 def check_spec(spec: Spec) -> tuple[Check, ...]:
@@ -39,6 +49,15 @@ def judge_design(design: WrittenDesign, progress: Progress) -> Judgement:
     from springcad.kinds.rotary_flexure.judge import judge_spring
 
     return judge_spring(design, progress)
+
+
+def calibrate_design(
+    design: WrittenDesign, curve: TorqueFile, stiffness: Stiffness, progress: Progress
+) -> Calibration:
+    """Modulus or root compliance, friction and offset from a bench test of a written spring."""
+    from springcad.kinds.rotary_flexure.calibration import calibrate_spring
+
+    return calibrate_spring(design, curve, stiffness, progress)
 
 
 def judge_decks(design: WrittenDesign) -> Mapping[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from springcad.kinds.rotary_flexure.calibrated import calibrated
 from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.law import LawInputs
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
@@ -9,10 +10,10 @@ from springcad.spec.common import CommonSpec
 
 
 def rotary_spec(model: CommonSpec) -> RotaryFlexureSpec:
-    """The model as this kind's own; TypeError for another kind's."""
+    """The model as this kind's own, its calibration in place; TypeError for another kind's."""
     if not isinstance(model, RotaryFlexureSpec):
         raise TypeError(f"not a rotary-flexure spec: {type(model).__name__}")
-    return model
+    return calibrated(model)
 
 
 def case_of(model: CommonSpec) -> Case:

@@ -47,6 +47,11 @@ Whole rings of the shipped specs with half-round cut-outs that bear on rigid dow
 """
 
 
+def root_unit(elastic_modulus: float, thickness: float, root_thickness: float) -> float:
+    """Root compliance of the coefficient 1, 1/(E t h^2) (rad/(N m)), h in the plane."""
+    return 1.0 / (elastic_modulus * thickness * root_thickness**2)
+
+
 @dataclass(frozen=True)
 class RootModel:
     """What a clamped beam lacks.

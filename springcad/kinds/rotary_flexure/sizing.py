@@ -9,18 +9,24 @@ contact lies a little outside the contact radius, makes up for the rest exactly.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
+from springcad.kinds.rotary_flexure.calibrated import root_coefficient
 from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.flexure_contact import flexure_beam
 from springcad.kinds.rotary_flexure.law import DesignLaw
 from springcad.kinds.rotary_flexure.ring import FILLET_STEP, largest_fillet
-from springcad.kinds.rotary_flexure.root_compliance import Mounting, RootModel, root_model
+from springcad.kinds.rotary_flexure.root_compliance import (
+    Mounting,
+    RootModel,
+    root_model,
+    root_unit,
+)
 from springcad.kinds.rotary_flexure.search import Found, find_shape
 from springcad.kinds.rotary_flexure.sector_skeleton import SectorGeometry
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
@@ -90,7 +96,7 @@ def _with_root(
     fillet: float,
     correction: float,
 ) -> Sized:
-    root = _root_model(spec, case, found.ribbon, fillet)
+    root = _calibrated_root(spec, case, found.ribbon, fillet)
     beam = _beam(spec, case, found.ribbon, root.compliance)
     # So small that the beam is linear; the arm of a tangential force is the contact radius.
     probe = 1e-6 * law.force
@@ -143,6 +149,16 @@ def _root_fillet(
         return smallest
     balanced = float(brentq(stiffening, smallest, fits, xtol=FILLET_STEP))
     return max(smallest, round(balanced / FILLET_STEP) * FILLET_STEP)
+
+
+def _calibrated_root(
+    spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float
+) -> RootModel:
+    """The root with what a bench test has found beyond the finite elements."""
+    root = _root_model(spec, case, ribbon, fillet)
+    thickness = 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
+    unit = root_unit(case.inputs.elastic_modulus, case.inputs.thickness, thickness)
+    return replace(root, compliance=root.compliance + root_coefficient(spec) * unit)
 
 
 def _root_model(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float) -> RootModel:

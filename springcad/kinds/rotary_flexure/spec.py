@@ -12,6 +12,11 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
+from springcad.kinds.rotary_flexure.calibration_spec import (
+    CalibrationEntry,
+    one_friction,
+    same_material,
+)
 from springcad.spec.common import (
     AutoLength,
     CommonSpec,
@@ -213,6 +218,8 @@ class RotaryFlexureSpec(CommonSpec):
         _local_stress,
         _control_points,
         _weighting,
+        same_material,
+        one_friction,
     )
 
     kind: Literal["rotary-flexure"]
@@ -238,6 +245,8 @@ class RotaryFlexureSpec(CommonSpec):
     """The toothed shaft inside the flexures."""
     optimiser: Optimiser = Field(default_factory=Optimiser)
     """How the serpentine centre line is searched for."""
+    calibration: CalibrationEntry = None
+    """What a bench test of an earlier design has told: a file of springcad calibrate."""
 
 
 SPEC_MODEL = RotaryFlexureSpec

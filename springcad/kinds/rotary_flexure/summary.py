@@ -8,7 +8,11 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from springcad.kinds.lasting import Loading
-from springcad.kinds.provenance import sources
+from springcad.kinds.rotary_flexure.calibrated import (
+    calibrated_sources,
+    calibration_assumptions,
+    root_coefficient,
+)
 from springcad.kinds.rotary_flexure.checks import law_stress, root_fillet_stress, spring_checks
 from springcad.kinds.rotary_flexure.response import both_ways
 from springcad.kinds.rotary_flexure.room import deflection_bound
@@ -74,6 +78,7 @@ def _design(spring: Spring) -> dict[str, Value]:
         "root_radius_m": law.inputs.root_radius,
         "outer_radius_m": spring.case.outer_radius,
         "thickness_m": law.inputs.thickness,
+        "material": spring.spec.material.name,
         "elastic_modulus_Pa": law.inputs.elastic_modulus,
         "poisson_ratio": spring.camshaft_inputs.poisson_ratio,
         "mounting": mounting_of(spring.spec),
@@ -89,6 +94,7 @@ def _design(spring: Spring) -> dict[str, Value]:
         "root_fillet_radius_m": spring.sized.fillet,
         "blend_radius_m": spring.sized.blend,
         "root_compliance_rad_per_Nm": spring.sized.root.compliance,
+        "calibrated_root_coefficient": root_coefficient(spring.spec),
         "root_fillet_stress_factor": spring.sized.root.fillet_stress_factor,
         "serpentine_correction": spring.sized.correction,
         "stiffness_at_rest_Nm_per_rad": spring.sized.stiffness_at_rest,
@@ -106,6 +112,7 @@ def _design(spring: Spring) -> dict[str, Value]:
             "tooth_thickness_m": camshaft.tooth_thickness,
             "tooth_height_m": camshaft.tooth_height,
             "backlash_m": spring.camshaft_inputs.backlash,
+            "friction": spring.spec.camshaft.friction,
             "free_play_rad": camshaft.slot.free_play,
             "exact_from_rad": max(camshaft.slot.exact_from),
             "preload_m": camshaft.slot.preload,
@@ -288,6 +295,7 @@ def _assumptions(spring: Spring) -> tuple[str, ...]:
         "The flexures are beams on a root spring. The spring and the stress in the root fillets "
         "come from linear plane-stress finite elements of one sector of the ring: rim, root, "
         f"fillets ({spring.fillet * 1e3:.2f} mm) and mounting, without dowel cut-outs.",
+        *calibration_assumptions(spec),
         "Everything is linear-elastic: where a stress passes yield, stiffness and stresses are "
         "outside the model.",
         f"The rim is {held}; its own stress is not checked.",
@@ -361,5 +369,5 @@ def _provenance(spec: Spec, spring: Spring) -> Mapping[str, Value]:
             "feasible_starts": found.feasible,
             "gaps_m": list(found.gaps),
         },
-        **sources(spring.spec.material, spring.spec.process),
+        **calibrated_sources(spring.spec),
     }
