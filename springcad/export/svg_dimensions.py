@@ -7,6 +7,7 @@ on the side where the feature lies. A length also shows the line that it measure
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -71,7 +72,7 @@ def dimension_text(dimension: Dimension) -> str:
         dimension.kind
     ]
     value = f"{factor * length:.3f}".rstrip("0").rstrip(".")
-    if value in dimension.label:
+    if re.search(rf"(?<![\d.]){re.escape(value)}(?!\.?\d)", dimension.label):
         return dimension.label
     return f"{sign}{value} {dimension.label}".strip()
 

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
+import sys
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -14,16 +18,25 @@ SPECS = ROOT / "specs"
 NAMES = ("roller-paper", "roller-linear", "roller-quadratic", "roller-table", "roller-stiffness")
 
 
-def designed(run_springcad, name: str, *options: str) -> dict:
-    run = run_springcad("design", SPECS / f"{name}.yaml", "--json", *options)
-    assert run.returncode == 0, run.stderr + run.stdout[:2000]
-    return json.loads(run.stdout)
+@pytest.fixture(scope="module")
+def designed(tmp_path_factory) -> Callable[..., dict]:
+    """``designed(name, options…)``: the report of a real process, each made once."""
+    folder = tmp_path_factory.mktemp("designs")
+
+    @cache
+    def report(name: str, *options: str) -> dict:
+        command = [sys.executable, "-m", "springcad", "design", SPECS / f"{name}.yaml", "--json"]
+        run = subprocess.run([*command, *options], cwd=folder, capture_output=True, text=True)
+        assert run.returncode == 0, run.stderr + run.stdout[:2000]
+        return json.loads(run.stdout)
+
+    return report
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
-def test_every_shipped_joint_follows_its_law_and_is_judged_to_do_so(run_springcad, name: str):
-    report = designed(run_springcad, name)
+def test_every_shipped_joint_follows_its_law_and_is_judged_to_do_so(designed, name: str):
+    report = designed(name)
     response = report["response"]
     torque, law = (np.array(response[f"{key}_torque_Nm"]) for key in ("group", "law"))
     assert np.abs(torque - law).max() < 3e-3 * law.max()
@@ -35,9 +48,9 @@ def test_every_shipped_joint_follows_its_law_and_is_judged_to_do_so(run_springca
     assert "fail" not in statuses.values()
 
 
-def test_the_joint_of_the_paper(run_springcad):
+def test_the_joint_of_the_paper(designed):
     """Three groups of 12 N m (11.765 by the law), at 769 MPa by the linear beam."""
-    report = designed(run_springcad, "roller-paper", "--no-verify")
+    report = designed("roller-paper")
     response, design = report["response"], report["design"]
     assert response["max_torque_Nm"] == pytest.approx(3 * 11.765, rel=2e-3)
     assert response["energy_J"] == pytest.approx(3 * 0.0842024, rel=5e-3)
@@ -58,8 +71,8 @@ def test_a_drum_that_is_too_small_is_refused_with_the_radius_that_will_do(run_sp
     assert re.search(r"raise joint\.drum_radius (from \S+ )?to ", run.stderr)
 
 
-def test_friction_opens_a_loop(run_springcad):
-    report = designed(run_springcad, "roller-linear", "--set", "friction=0.05", "--no-verify")
+def test_friction_opens_a_loop(designed):
+    report = designed("roller-linear", "--set", "friction=0.05", "--no-verify")
     loading, unloading = (
         np.array(report["response"][f"{key}_torque_Nm"]) for key in ("loading", "unloading")
     )
@@ -67,12 +80,12 @@ def test_friction_opens_a_loop(run_springcad):
     assert 0.0 < report["response"]["hysteresis_share"] < 0.5
 
 
-def test_every_key_of_the_report_is_documented_and_none_else(run_springcad):
+def test_every_key_of_the_report_is_documented_and_none_else(designed):
     page = (ROOT / "docs/reference/roller-cam-report.md").read_text(encoding="utf-8")
     always, with_friction = page.split("\nOnly with `friction`")
     row = re.compile(r"^\| `([^`]+)` \|", re.MULTILINE)
-    plain = designed(run_springcad, "roller-linear", "--no-verify")
-    rubbing = designed(run_springcad, "roller-linear", "--set", "friction=0.05", "--no-verify")
+    plain = designed("roller-linear")
+    rubbing = designed("roller-linear", "--set", "friction=0.05", "--no-verify")
 
     def keys(report: dict) -> set[str]:
         return {f"{part}.{key}" for part in ("design", "response") for key in report[part]}

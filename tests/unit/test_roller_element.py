@@ -120,7 +120,7 @@ def test_a_larger_offset_makes_room_as_the_message_says() -> None:
     low, high = (synthesise(joint_with(40e-3, offset), LAW) for offset in (8.95e-3, 9.95e-3))
     with pytest.raises(InfeasibleError) as failure:
         require_room(element_geometry(low, fillet))
-    assert failure.value.remedies == ("raise the offset of the roller",)
+    assert failure.value.remedies == ("raise joint.roller_offset", "lower cantilever.height")
     assert failure.value.value < failure.value.limit == fillet.foot_fillet
     require_room(element_geometry(high, fillet))
 

@@ -106,6 +106,11 @@ def test_a_label_that_states_the_value_stands_alone():
     assert dimension_text(outer) == "R33.5"
 
 
+def test_a_number_that_only_contains_the_value_does_not_state_it():
+    spring = Dimension("lever tilted by 10.08 deg", "linear", (0.0, 0.0), (8e-3, 0.0))
+    assert dimension_text(spring) == "8 lever tilted by 10.08 deg"
+
+
 def test_no_two_dimension_texts_share_a_row_of_their_column():
     crowd = [
         Dimension(f"hole {i}", "diameter", (0.0, 0.0), (1e-3 * (i + 1), 0.0)) for i in range(12)

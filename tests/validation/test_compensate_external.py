@@ -16,7 +16,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from springcad.kinds.roller_cam.checks import TORQUE_TOLERANCE, torque_errors
-from springcad.kinds.roller_cam.compensation import TorqueCurve, simplest, torque_error
+from springcad.kinds.roller_cam.compensation import torque_error
 from springcad.kinds.roller_cam.contact_model import element_contact, press_through, torque
 from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.design import make_joint
@@ -26,6 +26,7 @@ from springcad.kinds.roller_cam.forward import forward
 from springcad.kinds.roller_cam.inputs import group_law, roller_spec
 from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.made import MadeJoint
+from springcad.kinds.roller_cam.pseudo_law import TorqueCurve, simplest
 from springcad.spec.source import read_spec
 
 SPECS = Path(__file__).parents[2] / "specs"

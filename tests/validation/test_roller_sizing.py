@@ -7,6 +7,7 @@ rotations and eight contacts; ours is of the exact beam, up to 2 % softer and le
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ from springcad.errors import InfeasibleError
 from springcad.kinds.roller_cam.inputs import group_law, roller_spec
 from springcad.kinds.roller_cam.joint import Cantilever, Joint
 from springcad.kinds.roller_cam.sizing import Sized, size_cantilever, sized, task_of
-from springcad.kinds.roller_cam.sizing_search import SizingTask
+from springcad.kinds.roller_cam.sizing_search import LEAST_OVERRUN, SizingTask
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.roller_cam.synthesis import synthesise
 from springcad.kinds.roller_cam.tip import linear_tip
@@ -41,6 +42,7 @@ def spec_for(
     return roller_spec(read_spec(SPECS / f"roller-{name}.yaml", overrides).model)
 
 
+@cache
 def exact(objective: str, *more: str) -> Sized:
     spec = spec_for(objective, *more)
     return size_cantilever(spec, group_law(spec))
@@ -149,11 +151,12 @@ def test_no_lighter_cantilever_near_or_far_is_within_the_stress(
 
 
 def test_the_energy_of_the_law_can_hold_the_result() -> None:
-    """On a small drum the cantilever must be stiff; the roller ends right over its tip."""
-    found = exact("min_volume", "joint.drum_radius=22 mm")
+    """On a small drum the cantilever must be stiff; the profile ends right over its tip."""
+    found = exact("min_volume", "joint.drum_radius=24 mm")
     assert "energy of the law" in found.active
     assert found.stress < 899e6
-    profile = synthesise(found.joint, group_law(spec_for("min_volume")), overruns=(1.0,))
+    law = group_law(spec_for("min_volume"))
+    profile = synthesise(found.joint, law, overruns=(LEAST_OVERRUN,))
     assert np.degrees(profile.gamma[-1]) > 88.0
 
 
@@ -175,18 +178,19 @@ def test_equal_bounds_are_kept() -> None:
 
 
 def test_the_same_bounds_give_the_same_bits() -> None:
-    assert exact("min_volume") == exact("min_volume")
+    drum = "joint.drum_radius=60 mm"  # sized above
+    assert exact("min_volume", drum) == exact.__wrapped__("min_volume", drum)
 
 
 @pytest.mark.parametrize(
     ("objective", "more", "claim"),
     [
         ("target_stiffness", ("cantilever.stiffness=1900 N/mm",), "267 to 1852 N/mm"),
-        ("min_volume", ("material.design_stress=700 MPa",), "least bending stress"),
+        ("min_volume", ("material.design_stress=720 MPa",), "least bending stress"),
         (
             "target_stiffness",
-            ("cantilever.stiffness=800 N/mm", "joint.drum_radius=28 mm"),
-            "too soft by a factor of 1.35",
+            ("cantilever.stiffness=1150 N/mm", "joint.drum_radius=28 mm"),
+            "too soft by a factor of 1.07",
         ),
     ],
 )

@@ -9,7 +9,12 @@ import numpy as np
 
 from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.made import MadeJoint
-from springcad.kinds.roller_cam.remedies import contact_angle_remedy, interference_remedy
+from springcad.kinds.roller_cam.remedies import (
+    contact_angle_remedy,
+    interference_remedy,
+    synthesis_remedies,
+    within_stress,
+)
 from springcad.mechanics.contact import contact_modulus
 from springcad.result import Check, check
 
@@ -70,7 +75,7 @@ def _torque(made: MadeJoint) -> Iterator[Check]:
     relative, absolute = torque_errors(made)
     torque = "torque"
     source = "forward analysis of the drawn profile, beam and contact part elastic"
-    remedy = "set compensation to compliance, or make the contact part thicker"
+    remedy = torque_remedy(made)
     if made.correction is not None:
         torque = "expected torque"
         source = "given curve, its angles changed by what the forward analyses differ"
@@ -90,6 +95,20 @@ def _torque(made: MadeJoint) -> Iterator[Check]:
         source=f"drawn against designed profile; arcs within {1e6 * made.drawn.tolerance:.2g} um",
         remedy="raise torque_tolerance: no drawing is finer", otherwise="warn",
     )  # fmt: skip
+
+
+def torque_remedy(made: MadeJoint) -> str:
+    """By what the torque misses the law: compensation, room, drawing, or the joint itself."""
+    if made.spec.compensation != "compliance":
+        method = "" if made.spec.method == "energy" else "method to energy and "
+        return f"set {method}compensation to compliance, or raise contact_part.thickness"
+    if first_contact(made) > made.law.dead_zone:
+        return (
+            "lower torque_tolerance; before the first contact only a law with slope at rest helps"
+        )
+    if made.compensated.error <= TORQUE_TOLERANCE:
+        return "lower torque_tolerance: the arcs of the drawing waver"
+    return "raise joint.drum_radius or contact_part.thickness"
 
 
 def _correction(correction: Correction) -> Iterator[Check]:
@@ -134,8 +153,11 @@ def _contact(made: MadeJoint) -> Iterator[Check]:
 def _strength(made: MadeJoint) -> Iterator[Check]:
     allowed = made.spec.material.design_stress
     stress = float(np.max(made.stroke.tip.stress))
+    remedy = "raise joint.drum_radius, or make the cantilever stronger"
+    if stress > (1.0 + STRESS_TOLERANCE) * allowed:
+        remedy = "; or ".join(synthesis_remedies(made.case, within_stress(made.case))) or remedy
     yield check(
         "nominal stress at the clamp", stress, "<=", (1.0 + STRESS_TOLERANCE) * allowed, "Pa",
         source=f"beam, bending and axial, no notch; design stress + {STRESS_TOLERANCE:.0%}",
-        remedy="a larger joint.drum_radius or a stronger cantilever lowers it",
+        remedy=remedy,
     )  # fmt: skip

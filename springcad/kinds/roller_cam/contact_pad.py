@@ -77,5 +77,7 @@ def _difference(drawn: BulgePolyline, middle: Floats, roller: float) -> RigidPro
     first = int(np.max(breaks[breaks < nearest], initial=-1)) + 1
     last = int(np.min(breaks[breaks >= nearest], initial=len(steps)))
     along, out = away[first : last + 1] @ near.tangent, away[first : last + 1] @ near.normal
-    gap = 0.5 * roller * along**2 - (out - out[nearest - first])
+    # A parabola for the circle would be as far off as the profile is from a roller nearly as round.
+    sunk = (1.0 - np.sqrt(np.maximum(1.0 - (roller * along) ** 2, 0.0))) / roller
+    gap = sunk - (out - out[nearest - first])
     return rigid_profile(np.column_stack([along, -gap])[::-1])

@@ -2,7 +2,7 @@
 
 A written design was simulated by the user's own program, or measured. Its angles at equal torque
 are not those of the law; the angles of the pseudo law that it was made for are multiplied by what
-the law's are over them (``compensation.simplest``), and the next profile is made for that. By our
+the law's are over them (``pseudo_law.simplest``), and the next profile is made for that. By our
 own model that one misses the law on purpose.
 """
 
@@ -15,16 +15,16 @@ from typing import Any, cast
 import numpy as np
 
 from springcad.errors import InfeasibleError, Problem, SpecError
-from springcad.kinds.roller_cam.compensation import (
+from springcad.kinds.roller_cam.element import ElementDimensions
+from springcad.kinds.roller_cam.inputs import group_law
+from springcad.kinds.roller_cam.joint import Joint
+from springcad.kinds.roller_cam.law import Law
+from springcad.kinds.roller_cam.pseudo_law import (
     AngleRatio,
     TorqueCurve,
     pseudo_law,
     simplest,
 )
-from springcad.kinds.roller_cam.element import ElementDimensions
-from springcad.kinds.roller_cam.inputs import group_law
-from springcad.kinds.roller_cam.joint import Joint
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.roller_cam.written_joint import written_joint
 from springcad.result import Value

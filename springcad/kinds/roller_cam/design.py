@@ -10,14 +10,7 @@ from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.outline_ops import profile_area, profile_faults
-from springcad.kinds.roller_cam.compensation import (
-    JUDGED_FROM,
-    Compensated,
-    TorqueCurve,
-    compensate,
-    expected_angle,
-    pseudo_law,
-)
+from springcad.kinds.roller_cam.compensation import JUDGED_FROM, Compensated, compensate
 from springcad.kinds.roller_cam.correction import Correction, correction_of, followed_law
 from springcad.kinds.roller_cam.curve import curve_through
 from springcad.kinds.roller_cam.drawn import (
@@ -48,14 +41,16 @@ from springcad.kinds.roller_cam.joint import Joint
 from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.part import exact_part, linear_part
+from springcad.kinds.roller_cam.pseudo_law import TorqueCurve, expected_angle, pseudo_law
 from springcad.kinds.roller_cam.remedies import synthesis_remedies
 from springcad.kinds.roller_cam.sizing import size_cantilever
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.roller_cam.stepwise import distance, march, printed
 from springcad.kinds.roller_cam.summary import summarise
-from springcad.kinds.roller_cam.synthesis import synthesise
+from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
 from springcad.kinds.roller_cam.tip import linear_tip
 from springcad.mechanics.conjugate import until
+from springcad.mechanics.friction import FrictionLoop
 from springcad.result import Progress, Result
 from springcad.spec.source import Spec
 from springcad.spec.torque_curve import TorqueFile
@@ -70,6 +65,10 @@ FOOT_FILLET = 1e-3
 ROUNDING = 0.05e-3
 """Radius of outer corners (m): the first contact lies near the upper one."""
 _BY_ENERGY = "use method: energy, which needs no steps"
+_SMOOTHER = (
+    "smooth target.law there, or raise contact_part.thickness; these were not tried, and no other "
+    "number alone helps"
+)
 _ROUND_OFF = 1e-9
 
 
@@ -107,20 +106,16 @@ def make_joint(
     law, case = group_law(spec), _case(spec, correction)
     followed = case.law
     feasibility = require_feasible(case)
-    if correction is not None:
-        joint = correction.joint
-    elif spec.cantilever.objective is None:
-        joint = joint_of(spec)
-    else:
-        progress("sizing the cantilever")
-        joint = size_cantilever(spec, law).joint
+    joint = _joint(spec, law, correction, progress)
     dimensions = _dimensions(spec) if correction is None else correction.dimensions
     progress("finding the profile")
     try:
         compensated = compensate(joint, followed, dimensions, spec.compensation)
     except InfeasibleError as error:
+        if error.remedies:
+            raise
         progress("no profile: trying what would help")
-        raise error.with_remedies(*synthesis_remedies(case)) from error
+        raise error.with_remedies(*(synthesis_remedies(case) or [_SMOOTHER])) from error
     stepwise = None
     if spec.method == "stepwise":
         progress("stepping along the profile")
@@ -136,10 +131,6 @@ def make_joint(
     angles = _angles(followed)
     sensitivity = offset_sensitivity(joint, profile.curve, angles)
     drawn, stroke = _drawn(spec, followed, compensated, geometry, sensitivity)
-    friction = None
-    if spec.friction > 0.0:
-        flank = until(profile.flank, followed.deflection * (1.0 + _ROUND_OFF))
-        friction = roller_friction(joint, profile.curve, flank, spec.friction)
     density = spec.material.values.density.value
     return MadeJoint(
         spec=spec,
@@ -160,9 +151,21 @@ def make_joint(
         expected_angle=_expected(law, stroke, correction),
         gap=least_gap(joint, drawn.curve, forward(joint, drawn.curve, angles)),
         sensitivity=sensitivity,
-        friction=friction,
+        friction=_friction(spec, followed, profile),
         mass=profile_area(element) * joint.cantilever.width * density,
     )
+
+
+def _joint(
+    spec: RollerCamSpec, law: Law, correction: Correction | None, progress: Progress
+) -> Joint:
+    """Cantilever and roller: as given, sized, or those of the design that is corrected."""
+    if correction is not None:
+        return correction.joint
+    if spec.cantilever.objective is None:
+        return joint_of(spec)
+    progress("sizing the cantilever")
+    return size_cantilever(spec, law).joint
 
 
 def _case(spec: RollerCamSpec, correction: Correction | None) -> Case:
@@ -172,6 +175,13 @@ def _case(spec: RollerCamSpec, correction: Correction | None) -> Case:
         return case
     law = followed_law(case.law, correction)
     return replace(case, law=law, deflection=law.deflection, joint=correction.joint, is_sized=False)
+
+
+def _friction(spec: RollerCamSpec, law: Law, profile: ContactProfile) -> FrictionLoop | None:
+    if spec.friction == 0.0:
+        return None
+    flank = until(profile.flank, law.deflection * (1.0 + _ROUND_OFF))
+    return roller_friction(profile.joint, profile.curve, flank, spec.friction)
 
 
 def _expected(law: Law, stroke: Stroke, correction: Correction | None) -> Floats:
@@ -221,12 +231,18 @@ def _drawn(
     tolerance = tolerance_for(allowed, sensitivity)
     while True:
         drawn = drawn_profile(geometry, upper, tolerance)
-        stroke = forward(
-            profile.joint, drawn.curve, angles, compliance=lambda place: yielding(place + upper)
-        )
-        wandered = float(np.max(np.abs(stroke.torque - designed)))
-        if wandered <= allowed or tolerance <= FINEST:
-            return replace(drawn, torque_change=wandered / float(designed[-1])), stroke
+        try:
+            stroke = forward(
+                profile.joint, drawn.curve, angles, compliance=lambda place: yielding(place + upper)
+            )
+        except InfeasibleError:  # arcs waver, and a profile may be as round as the roller
+            if tolerance <= FINEST:
+                raise
+        else:
+            wandered = float(np.max(np.abs(stroke.torque - designed)))
+            if wandered <= allowed or tolerance <= FINEST:
+                share = wandered / float(designed[-1])
+                return replace(drawn, torque_change=share), stroke
         tolerance = max(TIGHTER * tolerance, FINEST)
 
 

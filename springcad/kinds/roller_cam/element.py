@@ -167,7 +167,7 @@ def first_place(profile: ContactProfile, dimensions: ElementDimensions) -> float
     if not len(free):
         lowest = float(height[-1])
         claim = "height of the upper half of the profile, which the mirrored element leaves free"
-        raise InfeasibleError(claim, lowest, highest, "m", ("make the roller larger",))
+        raise InfeasibleError(claim, lowest, highest, "m", ("raise joint.roller_radius",))
     return float(places[free[0]])
 
 
@@ -179,35 +179,39 @@ def require_room(geometry: ElementGeometry) -> None:
             than the cantilever, or the mount has no shoulder for the root fillets.
     """
     beam, size = geometry.cantilever, geometry.dimensions
+    shoulder = 0.5 * (size.mount.height - beam.height)
     needs = (
         (
             "room between the profile's lower end and the cantilever, for the fillet there",
             geometry.chin.center[1] - 0.5 * beam.height,
             size.foot_fillet,
-            "raise the offset of the roller",
+            ("raise joint.roller_offset", "lower cantilever.height"),
         ),
         (
             "length of the cantilever up to the contact part, for the fillets at both ends",
             beam.length + geometry.front,
             size.foot_fillet + size.root_fillet,
-            "make the cantilever longer",
+            ("raise cantilever.length", "lower cantilever.root_fillet"),
         ),
         (
             "shoulder of the mount beside the cantilever, for the root fillet",
-            0.5 * (size.mount.height - beam.height),
+            shoulder,
             size.root_fillet,
-            "make the mount higher",
+            (
+                f"raise mount.height above {1e3 * (beam.height + 2.0 * size.root_fillet):.4g} mm",
+                f"lower cantilever.root_fillet below {1e3 * shoulder:.4g} mm",
+            ),
         ),
         (
             "thickness of the contact part, for the roundings of its upper end",
             size.thickness,
             2.0 * size.rounding,
-            "make the contact part thicker",
+            (f"raise contact_part.thickness above {2e3 * size.rounding:g} mm",),
         ),
     )
-    for claim, value, limit, remedy in needs:
+    for claim, value, limit, remedies in needs:
         if value <= limit:
-            raise InfeasibleError(claim, value, limit, "m", (remedy,))
+            raise InfeasibleError(claim, value, limit, "m", remedies)
 
 
 def element_profile(geometry: ElementGeometry) -> Profile:

@@ -18,7 +18,7 @@ from springcad.kinds.roller_cam.law import (
     stiffness_table,
     table,
 )
-from springcad.kinds.roller_cam.spec import Law as LawSpec
+from springcad.kinds.roller_cam.sections import Law as LawSpec
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.spec.common import CommonSpec
 

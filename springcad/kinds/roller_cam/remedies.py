@@ -35,9 +35,13 @@ def synthesis_remedies(
 ) -> tuple[str, ...]:
     """Changes of one number after which a profile exists and ``is_sound``, smallest steps first.
 
+    None where that is so without any change: what is wrong is not seen here.
+
     Args:
         is_sound: what the profile must have beyond being possible; see ``within_stress``.
     """
+    if _cures(case, is_sound):
+        return ()
     knobs = [knob for knob in knobs_of(case) if knob.key not in _NOT_TRIED]
     return stepped_remedies(case, knobs, lambda tried: _cures(tried, is_sound))
 

@@ -68,7 +68,8 @@ def seat_roller(
     nothing; they are where Newton's method begins at the wanted angles.
 
     Raises:
-        InfeasibleError: the roller leaves the end of the profile before the last angle.
+        InfeasibleError: the roller leaves the end of the profile before the last angle, or no
+            single place is found where it touches.
     """
     place, force, reached = _scan(joint, curve, loaded)
     if angle.max() > reached[-1]:
@@ -83,7 +84,12 @@ def seat_roller(
 
     found, done = _newton(gap, start, np.array([[curve.length], [force[-1]]]))
     if not done.all():
-        raise ArithmeticError(f"no contact found at {np.degrees(at[~done][0]):.4g} deg")
+        lost = float(at[~done][0])
+        claim = (
+            f"contact of the roller found at {np.degrees(lost):.4g} deg; profile and roller are "
+            "nearly as round as each other"
+        )
+        raise InfeasibleError(claim, 0.0, 1.0, "1", ("raise joint.drum_radius",))
     return np.asarray((found[1] > 0.0) & (angle > clear)), found[0], loaded(*found)
 
 
@@ -199,9 +205,11 @@ def _newton(gap: Gap, start: Floats, scale: Floats) -> tuple[Floats, NDArray[np.
     """
     unknown, found = start.copy(), np.zeros(start.shape[1], dtype=np.bool_)
     rows, change = np.arange(start.shape[1]), np.ones_like(start)
+    last = np.full(start.shape[1], np.inf)
     for _ in range(_MAX_ITERATIONS):
         here = unknown[:, rows]
         value = gap(here, rows)
+        size = np.hypot(*value)
         # Differences look ahead, ever less far: where the profile's curvature jumps the slopes do.
         steps = np.clip(np.abs(change), *_DIFFERENCES) * np.where(change < 0.0, -1.0, 1.0)
         slopes = []
@@ -211,10 +219,12 @@ def _newton(gap: Gap, start: Floats, scale: Floats) -> tuple[Floats, NDArray[np.
             slopes.append((gap(beside, rows) - value) / steps[i])
         change = np.linalg.solve(np.stack(slopes, axis=-1).transpose(1, 0, 2), -value.T[..., None])
         change = np.clip(change[..., 0].T, -_LONGEST, _LONGEST)
+        # Where the curvature jumps, whole steps may go to and fro across the jump.
+        change = np.where(size > last, 0.5, 1.0) * change
         unknown[:, rows] += change * scale
-        close = (np.abs(change).max(axis=0) < _TOLERANCE) | (np.hypot(*value) < _TOUCH)
+        close = (np.abs(change).max(axis=0) < _TOLERANCE) | (size < _TOUCH)
         found[rows[close]] = True
-        rows, change = rows[~close], change[:, ~close]
+        rows, change, last = rows[~close], change[:, ~close], size[~close]
         if not len(rows):
             break
     return unknown, found

@@ -201,9 +201,10 @@ def _energy_error(task: SizingTask, beam: Beam) -> tuple[InfeasibleError, float]
     which = "the stiffest cantilever within the bounds"
     if task.stiffness is not None:
         which = f"a cantilever of {1e-3 * task.stiffness:.4g} N/mm"
+    beyond = ", to which the profile must go on" if worst == len(excess) - 1 else ""
     claim = (
-        f"energy that the law stores up to {math.degrees(wanted.angle[worst]):.4g} deg; giving its "
-        f"torque there {which} holds more: it is too soft by a factor of {factor:.4f}"
+        f"energy that the law stores up to {math.degrees(wanted.angle[worst]):.4g} deg{beyond}; "
+        f"giving its torque there {which} holds more: it is too soft by a factor of {factor:.4f}"
     )
     return InfeasibleError(claim, stored, stored * factor, "J"), float(excess[worst])
 

@@ -42,8 +42,10 @@ STRESS = np.array([0.0, 0.0, 0.0, 1.0])
 
 STRESS_RESERVE = 1e-6
 ENERGY_RESERVE = 1e-4
+LEAST_OVERRUN = 1.03
 """By these shares the stress stays below what is allowed, and the energy that the cantilever holds
-at least, the roller right over its tip, below that of the law."""
+at least, the roller right over its tip, below that of the law; and up to this share of the
+deflection: the strip of contact at full stroke needs a profile on both sides of it."""
 _FEASIBLE = 1e-7
 """Largest violation of a limit, of its logarithm."""
 _AS_GOOD = 1e-6
@@ -166,8 +168,12 @@ def loads_of(task: SizingTask, beam: Beam, cantilever: Cantilever, wanted: Torqu
 
 
 def samples(law: Law) -> TorqueLaw:
-    """The law of one group at ``ANGLES`` angles, the limit at rest included where there is one."""
+    """The law of one group at ``ANGLES`` angles, the limit at rest included where there is one.
+
+    A last angle follows, up to which the profile has to go.
+    """
     angle = np.linspace(law.dead_zone, law.deflection, ANGLES + 1)
+    angle = np.append(angle, LEAST_OVERRUN * law.deflection)
     return share_of_one(sampled(law, angle if rises_at_once(law) else angle[1:]), 1)
 
 
@@ -227,7 +233,7 @@ def _problem(task: SizingTask, beam: Beam, objective: Floats) -> Problem:
 
     def limits(variables: Floats) -> Floats:
         loads = loads_of(task, beam, task.cantilever(variables), wanted)
-        stress = np.log(np.maximum(loads.stress / task.design_stress, math.exp(-_FREE)))
+        stress = np.log(np.maximum(loads.stress[:-1] / task.design_stress, math.exp(-_FREE)))
         stress = np.where(np.isfinite(stress), stress, _NO_STATE)
         return np.concatenate(
             [variables[3] - stress - STRESS_RESERVE, -loads.excess - ENERGY_RESERVE]
@@ -236,7 +242,7 @@ def _problem(task: SizingTask, beam: Beam, objective: Floats) -> Problem:
     def problem(variables: Floats) -> Evaluation:
         here = limits(variables)
         jacobian = np.zeros((len(here), 4))
-        jacobian[: len(here) // 2, 3] = 1.0
+        jacobian[: len(wanted.angle) - 1, 3] = 1.0
         for column in free:
             moved = variables.copy()
             moved[column] += _STEP

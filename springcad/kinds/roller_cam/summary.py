@@ -21,9 +21,10 @@ from springcad.kinds.roller_cam.correction import correction_entry, law_points
 from springcad.kinds.roller_cam.correction_words import correction_assumptions, correction_outcomes
 from springcad.kinds.roller_cam.element import MOUNTED
 from springcad.kinds.roller_cam.made import MadeJoint
+from springcad.kinds.roller_cam.plots import joint_plots
 from springcad.kinds.roller_cam.views import joint_views
 from springcad.kinds.strength import with_strength
-from springcad.result import Dimension, Outcome, Part, Plot, Result, Series, Value
+from springcad.result import Dimension, Outcome, Part, Result, Value
 from springcad.spec.source import Spec
 
 
@@ -39,7 +40,7 @@ def summarise(spec: Spec, made: MadeJoint) -> Result:
         outcomes=tuple(_outcomes(made)),
         parts=(_part(made),),
         views=joint_views(made),
-        plots=_plots(made),
+        plots=joint_plots(made),
         assumptions=tuple(_assumptions(made)),
         advice=tuple(_advice(made)),
         provenance=_provenance(spec, made),
@@ -208,35 +209,6 @@ def _dimensions(made: MadeJoint) -> tuple[Dimension, ...]:
     )  # fmt: skip
 
 
-def _plots(made: MadeJoint) -> tuple[Plot, ...]:
-    stroke, law, angle = made.stroke, made.law, made.expected_angle
-    friction, correction = made.friction, made.correction
-    drawn = "drawn profile" if correction is None else "expected"
-    elsewhere = () if correction is None else (
-        Series(f"{correction.before}, given", correction.given.angle, correction.given.torque),
-        Series("springcad's model", stroke.angle, stroke.torque, dashed=True),
-    )  # fmt: skip
-    loops = () if friction is None else (
-        Series("loading", friction.angle, friction.loading),
-        Series("unloading", friction.angle, friction.unloading),
-    )  # fmt: skip
-    wanted = law.torque(angle)
-    return (
-        Plot("Torque of a group", "angle", "rad", "torque", "N*m",
-             (Series(drawn, angle, stroke.torque),
-              Series("law", angle, wanted, dashed=True), *elsewhere, *loops)),
-        Plot("Torque error", "angle", "rad", "error over the full torque", "1",
-             (Series(drawn, angle, (stroke.torque - wanted) / wanted[-1]),)),
-        Plot("Stress at the clamp", "angle", "rad", "stress", "Pa",
-             (Series("nominal", stroke.angle, stroke.tip.stress),),
-             limit=made.spec.material.design_stress),
-        Plot("Contact pressure", "angle", "rad", "pressure", "Pa",
-             (Series("Hertz", stroke.angle, pressure(made)),)),
-        Plot("Torque per outward offset of the profile", "angle", "rad", "torque per length", "N",
-             (Series("sensitivity", stroke.angle, made.sensitivity),)),
-    )  # fmt: skip
-
-
 def _assumptions(made: MadeJoint) -> Iterator[str]:
     if made.correction is not None:
         yield from correction_assumptions(made, made.correction)
@@ -269,18 +241,19 @@ def _assumptions(made: MadeJoint) -> Iterator[str]:
 
 
 def _advice(made: MadeJoint) -> Iterator[str]:
-    errors = made.compensated.errors
+    compensated = made.compensated
     if made.correction is not None:
         yield (
             "Simulate or measure this design in the same way; if it still misses the law by too "
             "much, springcad compensate corrects it in its turn."
         )
     law = "law" if made.correction is None else "pseudo law"
-    if len(errors) > 1:
+    updates = len(compensated.errors) - 1
+    if updates:
         yield (
-            f"A profile for a rigid contact part would miss the {law} by up to {errors[0]:.1%} "
-            f"(relative, from 2.6 % of the stroke on); {len(errors) - 1} updates bring it to "
-            f"{errors[-1]:.2%}."
+            f"A profile for a rigid contact part would miss the {law} by up to "
+            f"{compensated.errors[0]:.1%} (relative, from 2.6 % of the stroke on); after {updates} "
+            f"update{'s' if updates > 1 else ''} {compensated.error:.2%} is left."
         )
     yield from _near_rest(made)
     beam = made.joint.cantilever
