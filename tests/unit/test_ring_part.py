@@ -28,7 +28,7 @@ from springcad.kinds.rotary_flexure.ring import (
     ring_profile,
     root_fillet,
 )
-from springcad.kinds.rotary_flexure.sizing import BLEND_OVER_SMALLEST
+from springcad.kinds.rotary_flexure.root import BLEND_OVER_SMALLEST
 from springcad.kinds.rotary_flexure.spring import Spring
 
 RINGS = ("S1", "S2", "S4", "rotary-full")
@@ -277,8 +277,7 @@ def test_thick_tips_still_make_a_closed_smooth_ring(tip_over_root: float) -> Non
             tip_half_thickness=tip_over_root * law.root_half_thickness,
             serpentine_factor=1.0,
             bend_limit=0.3,
-        ),
-        1.0,
+        )
     )
     blend = BLEND_OVER_SMALLEST * 0.15e-3
     ring = ring_profile(ribbon, 31e-3, 33.5e-3, 8, 1.4e-3, blend, None)

@@ -25,8 +25,8 @@ from springcad.kinds.roller_cam.compensation import (
 from springcad.kinds.roller_cam.contact_model import element_contact, press_through, torque
 from springcad.kinds.roller_cam.element import ElementDimensions, element_geometry
 from springcad.kinds.roller_cam.element_mesh import FINE, Density
-from springcad.kinds.roller_cam.law import exponential, law_of
 from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
+from springcad.kinds.target_law import exponential, law_of
 
 CALIBRATED = 1.18e-3
 JUDGED = np.array([0.05, 0.1, 0.2, 0.5, 0.9, 1.3, 1.6, 1.9]) * DEGREE

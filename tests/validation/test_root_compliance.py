@@ -55,7 +55,7 @@ FLANK_STRESS = 891e6
 
 
 def straight_s1(fillet_over_root: float, rim_over_root: float) -> SectorGeometry:
-    ribbon = straight_ribbon(problem_for("S1", 0.3), 1.0)
+    ribbon = straight_ribbon(problem_for("S1", 0.3))
     root = 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
     outer = 31e-3 + rim_over_root * root
     return SectorGeometry(ribbon, 31e-3, outer, 24, fillet_over_root * root, 0.225e-3)

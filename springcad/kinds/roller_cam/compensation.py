@@ -32,8 +32,8 @@ from springcad.kinds.roller_cam.contact_compliance import ProfileCompliance, pro
 from springcad.kinds.roller_cam.element import ElementDimensions
 from springcad.kinds.roller_cam.forward import forward
 from springcad.kinds.roller_cam.joint import Joint
-from springcad.kinds.roller_cam.law import OVERRUN, Law
 from springcad.kinds.roller_cam.synthesis import OVERRUNS, ContactProfile, synthesise
+from springcad.kinds.target_law import OVERRUN, Law
 
 Floats = NDArray[np.float64]
 Method = Literal["none", "shift", "multiplicative", "compliance"]

@@ -42,7 +42,6 @@ from springcad.kinds.roller_cam.forward import (
 )
 from springcad.kinds.roller_cam.inputs import case_of, group_law, joint_of, roller_spec
 from springcad.kinds.roller_cam.joint import Joint
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.part import exact_part, linear_part
 from springcad.kinds.roller_cam.remedies import synthesis_remedies
@@ -52,6 +51,7 @@ from springcad.kinds.roller_cam.stepwise import distance, march, printed
 from springcad.kinds.roller_cam.summary import summarise
 from springcad.kinds.roller_cam.synthesis import synthesise
 from springcad.kinds.roller_cam.tip import linear_tip
+from springcad.kinds.target_law import Law
 from springcad.mechanics.conjugate import until
 from springcad.result import Progress, Result
 from springcad.spec.source import Spec

@@ -8,7 +8,9 @@ import numpy as np
 
 from springcad.kinds.roller_cam.feasibility import Case
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
-from springcad.kinds.roller_cam.law import (
+from springcad.kinds.roller_cam.spec import Law as LawSpec
+from springcad.kinds.roller_cam.spec import RollerCamSpec
+from springcad.kinds.target_law import (
     Law,
     Rise,
     exponential,
@@ -18,8 +20,6 @@ from springcad.kinds.roller_cam.law import (
     stiffness_table,
     table,
 )
-from springcad.kinds.roller_cam.spec import Law as LawSpec
-from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.spec.common import CommonSpec
 
 

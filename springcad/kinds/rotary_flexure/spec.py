@@ -20,6 +20,7 @@ from springcad.spec.common import (
     MaterialSpec,
     ProcessEntry,
     ProcessSpec,
+    Stress,
     TorsionalStiffness,
     angle,
     below_process,
@@ -68,6 +69,8 @@ class Flexures(Section):
     """Largest angle between centre line and radius at the root, in deg; more stiffens the root."""
     root_fillet: AutoLength = default("auto")
     """Fillet radius at the roots, in mm; auto: the largest that fits and does not stiffen."""
+    fillet_stress: Stress | None = None
+    """Largest stress in the root fillets, in MPa; thicker roots keep it. No limit if not given."""
     min_gap: Length | None = None
     """Least gap between neighbouring flexures at rest, in mm; the process's if not given."""
 

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from springcad.kinds.provenance import sources
-from springcad.kinds.rotary_flexure.checks import law_stress, root_fillet_stress, spring_checks
+from springcad.kinds.rotary_flexure.checks import root_fillet_stress, spring_checks
 from springcad.kinds.rotary_flexure.response import both_ways
 from springcad.kinds.rotary_flexure.room import deflection_bound
-from springcad.kinds.rotary_flexure.sizing import mounting_of
+from springcad.kinds.rotary_flexure.root import mounting_of
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.kinds.rotary_flexure.straight import straight_alternatives
 from springcad.result import Dimension, Outcome, Part, Plot, Result, Series, Value
@@ -56,7 +56,6 @@ def _design(spring: Spring) -> dict[str, Value]:
         "mass_kg": spring.mass,
         "style": found.style,
         "tip_force_N": law.force,
-        "law_stress_Pa": law_stress(spring),
         "flexure_span_m": law.span,
         "flexure_length_m": found.ribbon.length,
         "root_thickness_m": 2.0 * float(found.ribbon.at(np.zeros(1)).half_thickness[0]),
@@ -66,7 +65,6 @@ def _design(spring: Spring) -> dict[str, Value]:
         "blend_radius_m": spring.sized.blend,
         "root_compliance_rad_per_Nm": spring.sized.root.compliance,
         "root_fillet_stress_factor": spring.sized.root.fillet_stress_factor,
-        "serpentine_correction": spring.sized.correction,
         "stiffness_at_rest_Nm_per_rad": spring.sized.stiffness_at_rest,
         "deflection_bound_rad": _deflection_bound(spring),
         "flexure": {
