@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import LSQUnivariateSpline
 
 from springcad.geometry.neighbours import neighbour_gaps, zone_index, zone_minimum
 from springcad.geometry.ribbon import Ribbon
@@ -26,6 +27,8 @@ PAD_STATIONS = 9
 APART = 0.01
 """The last place before the pad at which the factor follows the stress is so far from it, as a
 share of the length: there it must meet the tip's thickness."""
+EVERY = 2
+"""Every so many of the beam's nodes there is a knot of the factor over the length."""
 TENTHS = 10
 GAP_POINTS = 121
 _DIGITS = 8
@@ -126,8 +129,21 @@ def corrected(
     return replace(
         problem,
         serpentine_factor=round(compliance / straight * load.stiffness_ratio, _DIGITS),
-        correction=Correction(lever, pad_length, share, np.round(factor, _DIGITS)),
+        correction=Correction(lever, pad_length, *_smooth(share, factor)),
     )
+
+
+def _smooth(share: Floats, factor: Floats) -> tuple[Floats, Floats]:
+    """Knots and, there, the cubic spline with these knots that is nearest to the factor.
+
+    Where the direction that stresses the flexure more changes, or the curvature's sign, the factor
+    has a kink; the thickness is to have none. The last value, the tip's thickness, is met.
+    """
+    knots = np.unique(np.append(share[:-EVERY:EVERY], [0.0, 1.0]))
+    weight = np.append(np.ones(len(share) - 1), 100.0)
+    spline = LSQUnivariateSpline(share, factor, knots[1:-1], weight)
+    values = np.append(spline(knots[:-1]), factor[-1])
+    return knots, np.asarray(np.round(values, _DIGITS))
 
 
 def _compliance(problem: FlexureProblem, ribbon: Ribbon, lever: float, weight: Floats) -> float:

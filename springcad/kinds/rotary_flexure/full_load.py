@@ -45,11 +45,14 @@ def stiffness_at_rest(ribbon: Ribbon, beam: PreparedBeam, demand: Demand) -> flo
     return (probe * demand.contact_radius) ** 2 / (2.0 * energy)
 
 
-def full_load(ribbon: Ribbon, beam: PreparedBeam, demand: Demand) -> tuple[BeamStates, BeamStates]:
+def full_load(
+    ribbon: Ribbon, beam: PreparedBeam, demand: Demand, share: float = 1.0
+) -> tuple[BeamStates, BeamStates]:
     """One flexure at the design deflection, pushed in direction +1 and in direction −1.
 
-    The contact may lie up to a pad's length before the pad: a flexure that is not sized yet may
-    ask for more pad than it has.
+    A flexure that is not sized yet takes a ``share`` of the torque and the energy, its stiffness
+    over the wanted one. The contact may lie up to a pad's length before the pad: it may ask for
+    more pad than it has.
 
     Raises:
         InfeasibleError: no contact gives the torque while the flexure holds the energy.
@@ -58,15 +61,17 @@ def full_load(ribbon: Ribbon, beam: PreparedBeam, demand: Demand) -> tuple[BeamS
     nose = NOSE_ALLOWANCE * float(ribbon.half_thickness[-1])
     limits = (ribbon.length - 2.0 * pad, ribbon.length + nose)
     one = TorqueLaw(
-        np.array([demand.deflection]), np.array([demand.torque]), np.array([demand.energy])
+        np.array([demand.deflection]),
+        share * np.array([demand.torque]),
+        share * np.array([demand.energy]),
     )
     states = []
     for direction in DIRECTIONS:
         found = find_contacts(flexure_part(beam, demand.root_radius, direction), one, limits, 1)
         if not found.found[0]:
-            energy = demand.energy * float(np.exp(found.contact.excess[0]))
+            energy = share * demand.energy * float(np.exp(found.contact.excess[0]))
             claim = "energy of a flexure that gives the torque at the design deflection"
-            raise InfeasibleError(claim, energy, demand.energy, "J")
+            raise InfeasibleError(claim, energy, share * demand.energy, "J")
         contact = found.contact
         states.append(contact_load(beam, contact.station, contact.force, direction))
     return states[0], states[1]

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.flexure_contact import flexure_beam
@@ -41,7 +40,11 @@ class Root:
 
 
 def root_with(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float) -> Root:
-    """The root with the given fillet, or the largest below it that fits between neighbours."""
+    """The root with the given fillet, or the largest below it that fits between neighbours.
+
+    Raises:
+        InfeasibleError: not even the smallest of the process fits.
+    """
     fits = largest_fillet(
         ribbon,
         case.inputs.root_radius,
@@ -57,24 +60,15 @@ def chosen_root(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, earlier: fl
 
     A larger one would lower the stress in the fillet, but take bending out of the flexure, which
     must then be longer: it costs gap. ``earlier`` is the choice for a shape much like this one.
-
-    Raises:
-        InfeasibleError: neighbouring fillets run into each other.
+    A fillet that is asked for and does not fit gives way to the largest that does.
     """
     asked = spec.flexures.root_fillet
-    smallest = spec.process.rules.min_inside_radius
+    if not isinstance(asked, str):
+        return root_with(spec, case, ribbon, asked)
+    inputs, smallest = case.inputs, spec.process.rules.min_inside_radius
     thickness = 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
     wanted = max(math.floor(LARGEST_FILLET * thickness / FILLET_STEP) * FILLET_STEP, smallest)
-    if not isinstance(asked, str):
-        wanted = asked
-    inputs = case.inputs
     fits = largest_fillet(ribbon, inputs.root_radius, inputs.count, smallest, wanted)
-    if not isinstance(asked, str):
-        if fits < asked:
-            remedy = f"lower flexures.root_fillet to {1e3 * fits:g} mm, or set it to auto"
-            claim = "root fillet that fits between neighbours"
-            raise InfeasibleError(claim, fits, asked, "m", (remedy,))
-        return root_with(spec, case, ribbon, asked)
     balanced = _zero(
         lambda radius: _model(spec, case, ribbon, radius).compliance,
         min(fits, fits if earlier is None else earlier),

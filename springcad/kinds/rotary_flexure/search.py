@@ -91,7 +91,7 @@ def adapted(
         )
     else:
         line = reoptimise(problem, found.line, freeze=freeze)
-    return _serpentine(spec, problem, line)
+    return _serpentine(spec, problem, line, corrected=True)
 
 
 def problem_of(spec: RotaryFlexureSpec, law: DesignLaw) -> FlexureProblem:
@@ -109,9 +109,13 @@ def problem_of(spec: RotaryFlexureSpec, law: DesignLaw) -> FlexureProblem:
     )
 
 
-def _serpentine(spec: RotaryFlexureSpec, problem: FlexureProblem, line: Line | None) -> Found:
+def _serpentine(
+    spec: RotaryFlexureSpec, problem: FlexureProblem, line: Line | None, *, corrected: bool = False
+) -> Found:
     if line is None or (isinstance(line, ControlPointOutcome) and not line.feasible):
         claim = f"searches, of {spec.optimiser.starts}, that found a flexure within all limits"
+        if corrected:
+            claim += " once it was corrected for full load"
         raise InfeasibleError(claim, 0.0, 1.0, "1")
     return _found(problem, line)
 

@@ -49,6 +49,8 @@ def curvature_ribbon(flexure: FlexureProblem, optimum: CurvatureOptimum) -> Ribb
     """The flexure of an optimised curvature spline and its pad."""
     spline = BSpline(curvature_knots() * optimum.length, optimum.coefficients, DEGREE)
     knots = np.unique(curvature_knots()) * optimum.length
+    if flexure.local_stress:  # What a bend is thickened by falls fast where it changes its side.
+        knots = np.sort(np.append(knots, 0.5 * (knots[1:] + knots[:-1])))
     tail = graded_towards_tip(optimum.length, flexure.lever - flexure.span + flexure.pad_length)
     apart = [s for s in tail if np.min(np.abs(s - knots)) > 0.05 * knots[1]]
     edges = np.unique([*knots, *apart, optimum.length + flexure.pad_length])

@@ -29,6 +29,7 @@ from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.full_load import Demand, full_load, stiffness_at_rest
 from springcad.kinds.rotary_flexure.law import DesignLaw
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
+from springcad.kinds.rotary_flexure.ring import FILLET_STEP
 from springcad.kinds.rotary_flexure.root import Root, chosen_root, flexure_on, root_with
 from springcad.kinds.rotary_flexure.root_compliance import RootModel
 from springcad.kinds.rotary_flexure.search import Found, adapted, find_shape
@@ -44,7 +45,8 @@ would have to be touched beyond its nose."""
 CLOSE = 0.0004
 """It stops within this share of its aim, so within 0.1 % of the wanted stiffness,"""
 EVEN = 0.004
-"""and within this share of the allowed stress."""
+"""and within this share of the allowed stress, or after all passes: where the inner fibres count,
+the thickness cannot follow every change of side of a bend. The checks judge what is left."""
 PASSES = 16
 SHAPED = 3
 """In the first passes the shape is optimised for its gap at full load; then it only follows the
@@ -105,9 +107,10 @@ def size_flexure(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: 
         fillet = root.fillet
         beam = flexure_on(spec, case, found.ribbon, root.model.compliance)
         stiffness = stiffness_at_rest(found.ribbon, beam, demand)
-        states = full_load(found.ribbon, beam, demand)
+        share = stiffness / (SOFTER * demand.stiffness)
+        states = full_load(found.ribbon, beam, demand, share)
         relief = _relief(spec, root, states, relief)
-        load = _loading(spec, case, found.ribbon, states, relief, stiffness / demand.stiffness)
+        load = _loading(spec, case, found.ribbon, states, relief, share)
         level = 1.0 if found.line else straight_level(found.problem, found.ribbon, load)
         sized = Sized(
             found=found,
@@ -120,8 +123,10 @@ def size_flexure(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: 
             evenness=load.unevenness(found.ribbon, level),
             passes=number,
         )
-        if abs(load.stiffness_ratio - 1.0) <= CLOSE and sized.evenness <= EVEN:
-            return _wide_enough(spec, case, sized)
+        as_stiff = abs(share - 1.0) <= CLOSE
+        if as_stiff and (sized.evenness <= EVEN or number == PASSES - 1):
+            _require_room(spec, case, sized)
+            return sized
         problem = corrected(found.problem, found.ribbon, load, level)
         if found.line and number < SHAPED:
             problem = _with_allowance(problem, found.ribbon, beam, states)
@@ -150,15 +155,15 @@ def _loading(
     ribbon: Ribbon,
     states: tuple[BeamStates, BeamStates],
     relief: float,
-    stiffness_ratio: float,
+    share: float,
 ) -> Loading:
     stations = stations_of(ribbon, states)
     return loading(
         ribbon,
         states,
         case.inputs.root_radius - case.inputs.contact_radius,
-        case.inputs.design_stress * allowed_share(ribbon, stations, relief),
-        stiffness_ratio / SOFTER,
+        share * case.inputs.design_stress * allowed_share(ribbon, stations, relief),
+        share,
         local=spec.stress == "local",
     )
 
@@ -184,8 +189,8 @@ def _relief(
     if limit is None:
         return 1.0
     nominal = max(float(state.nominal_stress[0, 0]) for state in states)
-    share = limit / (root.model.fillet_stress_factor * nominal)
-    return min(1.0, max(LEAST_RELIEF, round(earlier * share**2, 6)))
+    spare = limit / (root.model.fillet_stress_factor * nominal)
+    return min(1.0, max(LEAST_RELIEF, round(earlier * spare**2, 6)))
 
 
 def _with_allowance(
@@ -198,11 +203,19 @@ def _with_allowance(
     return replace(problem, gap_allowance=allowance)
 
 
-def _wide_enough(spec: RotaryFlexureSpec, case: Case, sized: Sized) -> Sized:
-    """The same; InfeasibleError with the gap that is there where it is too small."""
+def _require_room(spec: RotaryFlexureSpec, case: Case, sized: Sized) -> None:
+    """Refuse a fillet or a gap that is smaller than asked for, with what is there."""
+    fillet = spec.flexures.root_fillet
+    if not isinstance(fillet, str) and sized.fillet < fillet:
+        remedy = "set flexures.root_fillet to auto"
+        if sized.found.gap >= case.min_gap:
+            fits = 1e3 * (sized.fillet - FILLET_STEP)
+            remedy = f"lower flexures.root_fillet to {fits:g} mm, or set it to auto"
+        claim = "root fillet that fits between neighbours"
+        raise InfeasibleError(claim, sized.fillet, fillet, "m", (remedy,))
     gap, asked = sized.found.gap, spec.flexures.min_gap
     if gap >= case.min_gap:
-        return sized
+        return
     remedies: tuple[str, ...] = ()
     if asked is not None and gap >= spec.process.rules.min_gap:
         there = math.floor(1e5 * gap) / 1e2
