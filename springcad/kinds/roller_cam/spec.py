@@ -11,6 +11,7 @@ from typing import Annotated, ClassVar, Literal, TypeAlias
 
 from pydantic import Field
 
+from springcad.kinds.law_spec import LAW_RULES, Law, reaches
 from springcad.spec.common import (
     CommonSpec,
     Length,
@@ -18,88 +19,23 @@ from springcad.spec.common import (
     ProcessEntry,
     ProcessSpec,
     Quantity,
-    TorsionalStiffness,
     angle,
     below_process,
     default,
 )
-from springcad.spec.csv_columns import Column
-from springcad.spec.lists import Bounds, Coefficients
-from springcad.spec.points import CurvePoints, Point, Points
+from springcad.spec.lists import Bounds
+from springcad.spec.points import Points
 from springcad.spec.rules import Rule, Section, rule
-from springcad.spec.units import ANGLE, LENGTH, LINEAR_STIFFNESS, STIFFNESS, TORQUE, show
+from springcad.spec.units import ANGLE, LENGTH, LINEAR_STIFFNESS, show
 
 TEMPLATE = files(__package__).joinpath("template.yaml").read_text(encoding="utf-8")
 
 DEFLECTION = ("0.01 deg", "30 deg")
 """Range of the deflection; the roller leaves the plane of the profile by R (1 - cos β)."""
 
-MOST_DECADES = 12
-LEAST_STEP = 1e-7
-"""Between the angles of two points, rad."""
-
-
-def _torque_fault(before: Point | None, point: Point) -> str | None:
-    torque = point[1]
-    if before is None:
-        if torque == 0.0:
-            return None
-        return f"torque at 0 is {show(torque, TORQUE)}; must be 0: a mirrored pair has no preload"
-    if torque == 0.0:
-        return f"no torque up to {show(point[0], ANGLE)}: give that as target.dead_zone instead"
-    if torque < before[1]:
-        return f"torque falls; it must not be less than the {show(before[1], TORQUE)} before it"
-    return None
-
-
-def _stiffness_fault(_: Point | None, point: Point) -> str | None:
-    return None if point[1] >= 0.0 else "stiffness must not be negative"
-
-
-_ANGLE = Column("angle", Quantity(ANGLE, "0 deg", "60 deg"))
-_TORQUE = Column("torque", Quantity(TORQUE, "0 N*m", "1000000 N*m"))
-_STIFFNESS = Column("stiffness", Quantity(STIFFNESS, "0 N*m/rad", "1000000000 N*m/rad"))
-
-TorquePoints: TypeAlias = Annotated[Points, CurvePoints(_ANGLE, _TORQUE, LEAST_STEP, _torque_fault)]
-StiffnessPoints: TypeAlias = Annotated[
-    Points, CurvePoints(_ANGLE, _STIFFNESS, LEAST_STEP, _stiffness_fault)
-]
 LengthBounds: TypeAlias = Annotated[
     tuple[float, float], Bounds(Quantity(LENGTH, "0.01 mm", "10 m"))
 ]
-
-
-class Exponential(Section):
-    """Torque scale (10^(angle/decade) - 1), the law of paper 001."""
-
-    scale: Annotated[float, Quantity(TORQUE, "0.000000001 N*m", "1000000 N*m")]
-    """Factor of the law, in N*m: what the torque and it together have grown from."""
-    decade: Annotated[float, angle("0.001 deg", "1000 deg")]
-    """Angle in which torque plus scale grows tenfold, in deg."""
-
-
-class Stiffness(Section):
-    """Stiffness against angle, integrated to the torque: one of table and polynomial."""
-
-    table: StiffnessPoints | None = None
-    """CSV file (angle, stiffness) beside the spec, or pairs [angle, stiffness]."""
-    polynomial: Annotated[tuple[float, ...], Coefficients(1)] | None = None
-    """Coefficients of 1, angle, angle^2, ...: N*m/rad, N*m/rad^2, ... or per deg, deg^2, ..."""
-
-
-class Law(Section):
-    """Torque over the angle from the end of the dead zone: exactly one of these."""
-
-    exponential: Exponential | None = None
-    """Torque scale (10^(angle/decade) - 1), the law of paper 001."""
-    linear: TorsionalStiffness | None = None
-    """A constant stiffness, in N*m/rad or N*m/deg."""
-    polynomial: Annotated[tuple[float, ...], Coefficients(1)] | None = None
-    """Coefficients of angle, angle^2, ...: N*m/rad, N*m/rad^2, ... or per deg, deg^2, ..."""
-    table: TorquePoints | None = None
-    """CSV file (angle, torque) beside the spec, or pairs [angle, torque]; from 0, never falling."""
-    stiffness: Stiffness | None = None
-    """Stiffness against angle, integrated to the torque."""
 
 
 class Target(Section):
@@ -179,31 +115,6 @@ class Stepwise(Section):
     """As printed (eight unknowns, backward difference), or one unknown and the trapezoid rule."""
 
 
-@rule("target.law")
-def _one_law(law: Law) -> str | None:
-    return _exactly_one(law)
-
-
-@rule("target.law.stiffness")
-def _one_stiffness(stiffness: Stiffness | None) -> str | None:
-    return None if stiffness is None else _exactly_one(stiffness)
-
-
-def _exactly_one(section: Section) -> str | None:
-    known = list(type(section).model_fields)
-    given = [name for name in known if getattr(section, name) is not None]
-    if len(given) == 1:
-        return None
-    return f"give one of {', '.join(known)}; {' and '.join(given) or 'none'} given"
-
-
-@rule("target.law.exponential.decade", "target.deflection")
-def _decades(decade: float, deflection: float) -> str | None:
-    if deflection <= MOST_DECADES * decade:
-        return None
-    return f"the torque grows by more than {MOST_DECADES} decades up to {show(deflection, ANGLE)}"
-
-
 @rule("target.dead_zone", "target.deflection")
 def _dead_zone(dead_zone: float, deflection: float) -> str | None:
     return None if dead_zone < deflection else f"must be less than {show(deflection, ANGLE)}"
@@ -211,19 +122,12 @@ def _dead_zone(dead_zone: float, deflection: float) -> str | None:
 
 @rule("target.law.table", "target.deflection", "target.dead_zone")
 def _torque_table_reaches(points: Points | None, deflection: float, dead: float) -> str | None:
-    return _reaches(points, deflection - dead)
+    return reaches(points, deflection - dead)
 
 
 @rule("target.law.stiffness.table", "target.deflection", "target.dead_zone")
 def _stiffness_table_reaches(points: Points | None, deflection: float, dead: float) -> str | None:
-    return _reaches(points, deflection - dead)
-
-
-def _reaches(points: Points | None, stroke: float) -> str | None:
-    if points is None or points[-1][0] >= stroke * (1.0 - 1e-9):
-        return None
-    ends, wanted = show(points[-1][0], ANGLE), show(stroke, ANGLE)
-    return f"ends at {ends}, but must reach the deflection less the dead zone, {wanted}"
+    return reaches(points, deflection - dead)
 
 
 @rule("joint.roller_radius", "joint.drum_radius")
@@ -297,9 +201,7 @@ class RollerCamSpec(CommonSpec):
     """A roller cam: a cantilever with a contact profile for a given torque law (paper 001)."""
 
     RULES: ClassVar[tuple[Rule, ...]] = (
-        _one_law,
-        _one_stiffness,
-        _decades,
+        *LAW_RULES,
         _dead_zone,
         _torque_table_reaches,
         _stiffness_table_reaches,

@@ -27,6 +27,8 @@ PAD_STATIONS = 9
 APART = 0.01
 """The last place before the pad at which the factor follows the stress is so far from it, as a
 share of the length: there it must meet the tip's thickness."""
+CONTACT_ON_PAD = 0.05e-3
+"""The contact stays so far within the pad, m."""
 EVERY = 2
 """Every so many of the beam's nodes there is a knot of the factor over the length."""
 TENTHS = 10
@@ -42,13 +44,15 @@ class Loading:
     Attributes:
         stations: from the root to the tip, m (K,).
         ratio: there, the larger stress of both directions over the allowed one (K,).
-        lever: x of the contact at full load, the outer one of both directions, m.
+        lever: x of the contact under the load that stresses the start of the pad most, m.
+        innermost: x of the contact nearest to the root, m.
         stiffness_ratio: stiffness at rest over the wanted one.
     """
 
     stations: Floats
     ratio: Floats
     lever: float
+    innermost: float
     stiffness_ratio: float
 
     def unevenness(self, ribbon: Ribbon, level: float) -> float:
@@ -66,22 +70,27 @@ def loading(
     *,
     local: bool,
 ) -> Loading:
-    """How a flexure is used at full load.
+    """How a flexure is used.
 
     Args:
-        states: in both directions, one load each.
+        states: in both directions, L loads each; the last is full load.
         span: x of the end of the pad, m.
         allowed: stress at ``stations_of(ribbon, states)``, Pa (K,).
         local: whether the inner-fibre stress counts, not the nominal one.
     """
     stations = stations_of(ribbon, states)
-    stress = [
-        np.interp(stations, s.stations[0], (s.local_stress if local else s.nominal_stress)[0])
-        for s in states
-    ]
-    reach = max(float(state.end_station[0]) for state in states)
-    ratio = np.max(stress, axis=0) / allowed
-    return Loading(stations, ratio, span - (ribbon.length - reach), stiffness_ratio)
+    stress = np.array(
+        [
+            np.interp(stations, *load)
+            for s in states
+            for load in zip(s.stations, s.local_stress if local else s.nominal_stress, strict=True)
+        ]
+    )
+    x = span - ribbon.length + np.concatenate([state.end_station for state in states])
+    governing = int(stress[:, -PAD_STATIONS].argmax())
+    return Loading(
+        stations, stress.max(axis=0) / allowed, float(x[governing]), float(x.min()), stiffness_ratio
+    )
 
 
 def stations_of(ribbon: Ribbon, states: Sequence[BeamStates]) -> Floats:
@@ -113,9 +122,9 @@ def corrected(
     """
     at = ribbon.at(load.stations)
     wanted = at.half_thickness * np.sqrt(load.ratio / level)
-    pad_start = _reaches(load.stations, wanted, problem.tip_half_thickness)
     lever = round(load.lever, _DIGITS)
-    pad_length = round(ribbon.length - pad_start, _DIGITS)
+    thin = ribbon.length - _reaches(load.stations, wanted, problem.tip_half_thickness)
+    pad_length = round(max(thin, problem.span - load.innermost + CONTACT_ON_PAD), _DIGITS)
     pad_start = ribbon.length - pad_length
     before = load.stations < (1.0 - APART) * pad_start
     # The law knows the correction by its lever alone.
@@ -187,7 +196,7 @@ def gap_allowance(
         return smallest_of_each
 
     at_rest = ribbon.at(stations)
-    bent = [smallest(deformed_points(beam, state, stations)[0][0]) for state in states]
+    bent = [smallest(deformed_points(beam, state, stations)[0][-1]) for state in states]
     rest = smallest(np.column_stack([at_rest.x, at_rest.y]))
     closer = np.maximum(rest - np.min(bent, axis=0), 0.0)
     return np.asarray(np.round(closer, _DIGITS))

@@ -110,11 +110,14 @@ def pad_energy(flexure: FlexureProblem) -> float:
     return loaded**3 / (3.0 * flexure.lever**2 * tip**3)
 
 
-def thickened(flexure: FlexureProblem, factor: float) -> FlexureProblem:
-    """The problem with the law's half thickness times ``factor`` everywhere."""
+def thickened(flexure: FlexureProblem, factor: float, shift: float = 0.0) -> FlexureProblem:
+    """The problem with the law's half thickness times ``factor`` everywhere.
+
+    ``shift`` is by how much the taper ends before the span.
+    """
     tip = flexure.tip_half_thickness / (factor * flexure.root_half_thickness)
-    ends = np.array([0.0, 1.0])
-    uniform = Correction(flexure.span, flexure.span * tip**2, ends, np.full(2, factor))
+    ends, lever = np.array([0.0, 1.0]), flexure.span - shift
+    uniform = Correction(lever, shift + lever * tip**2, ends, np.full(2, factor))
     return replace(flexure, correction=uniform)
 
 

@@ -58,7 +58,8 @@ def find_shape(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: Pr
     """
     problem, settings = problem_of(spec, law), spec.optimiser
     if resolved_style(law, case.style) == "straight":
-        return _found(thickened(problem, law.straight_thickness_factor), None)
+        shift = law.inputs.shift
+        return _found(thickened(problem, law.straight_thickness_factor, shift), None)
     line: Line | None
     if settings.form == "control-points":
         line = optimise_control_points(
@@ -96,7 +97,7 @@ def adapted(
 
 def problem_of(spec: RotaryFlexureSpec, law: DesignLaw) -> FlexureProblem:
     """What the shape of one flexure must meet by the design law."""
-    return FlexureProblem(
+    plain = FlexureProblem(
         span=law.span,
         root_radius=law.inputs.root_radius,
         count=law.inputs.count,
@@ -107,6 +108,7 @@ def problem_of(spec: RotaryFlexureSpec, law: DesignLaw) -> FlexureProblem:
         max_root_angle=spec.flexures.max_root_angle,
         local_stress=spec.stress == "local",
     )
+    return plain if law.inputs.shift == 0.0 else thickened(plain, 1.0, law.inputs.shift)
 
 
 def _serpentine(

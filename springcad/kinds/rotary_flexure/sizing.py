@@ -26,7 +26,7 @@ from springcad.kinds.rotary_flexure.correction import (
     straight_level,
 )
 from springcad.kinds.rotary_flexure.feasibility import Case
-from springcad.kinds.rotary_flexure.full_load import Demand, full_load, stiffness_at_rest
+from springcad.kinds.rotary_flexure.full_load import demand_of, loads_of, stiffness_at_rest
 from springcad.kinds.rotary_flexure.law import DesignLaw
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
 from springcad.kinds.rotary_flexure.ring import FILLET_STEP
@@ -34,6 +34,7 @@ from springcad.kinds.rotary_flexure.root import Root, chosen_root, flexure_on, r
 from springcad.kinds.rotary_flexure.root_compliance import RootModel
 from springcad.kinds.rotary_flexure.search import Found, adapted, find_shape
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
+from springcad.kinds.target_law import Law
 from springcad.mechanics.beam import BeamStates, PreparedBeam
 from springcad.result import Progress
 
@@ -88,15 +89,19 @@ class Sized:
     passes: int
 
 
-def size_flexure(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: Progress) -> Sized:
-    """Shape, fillet and root of the flexures.
+def size_flexure(
+    spec: RotaryFlexureSpec, case: Case, law: DesignLaw, target: Law, progress: Progress
+) -> Sized:
+    """Shape, fillet and root of the flexures for the torque law ``target``.
 
     Raises:
         InfeasibleError: no shape or no fillet fits, the gap is below the smallest wanted, or the
             sizing does not settle.
     """
     progress("searching for the shape of the flexures")
-    found, demand = find_shape(spec, case, law, progress), demand_of(case, law)
+    found = find_shape(spec, case, law, progress)
+    inputs = case.inputs
+    demand = demand_of(target, inputs.root_radius, inputs.contact_radius, inputs.count)
     fillet, relief = None, 1.0
     for number in range(PASSES):
         progress(f"correcting the flexures for full load, pass {number + 1}")
@@ -108,7 +113,7 @@ def size_flexure(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: 
         beam = flexure_on(spec, case, found.ribbon, root.model.compliance)
         stiffness = stiffness_at_rest(found.ribbon, beam, demand)
         share = stiffness / (SOFTER * demand.stiffness)
-        states = full_load(found.ribbon, beam, demand, share)
+        states = loads_of(found.ribbon, beam, demand, share)
         relief = _relief(spec, root, states, relief)
         load = _loading(spec, case, found.ribbon, states, relief, share)
         level = 1.0 if found.line else straight_level(found.problem, found.ribbon, load)
@@ -131,22 +136,9 @@ def size_flexure(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: 
         if found.line and number < SHAPED:
             problem = _with_allowance(problem, found.ribbon, beam, states)
         found = adapted(spec, found, problem, freeze=number >= SHAPED)
-    wanted = law.inputs.stiffness
+    wanted = inputs.count * demand.stiffness
     claim = "stiffness at rest that the sizing arrives at"
     raise InfeasibleError(claim, sized.stiffness_at_rest, wanted, "N*m/rad")
-
-
-def demand_of(case: Case, law: DesignLaw) -> Demand:
-    """What is asked of one flexure."""
-    inputs = case.inputs
-    return Demand(
-        root_radius=inputs.root_radius,
-        contact_radius=inputs.contact_radius,
-        deflection=inputs.deflection,
-        torque=law.torque / inputs.count,
-        energy=law.energy / inputs.count,
-        stiffness=inputs.stiffness / inputs.count,
-    )
 
 
 def _loading(
@@ -188,7 +180,7 @@ def _relief(
     limit = spec.flexures.fillet_stress
     if limit is None:
         return 1.0
-    nominal = max(float(state.nominal_stress[0, 0]) for state in states)
+    nominal = max(float(state.nominal_stress[-1, 0]) for state in states)
     spare = limit / (root.model.fillet_stress_factor * nominal)
     return min(1.0, max(LEAST_RELIEF, round(earlier * spare**2, 6)))
 

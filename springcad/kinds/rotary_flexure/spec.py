@@ -12,6 +12,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
+from springcad.kinds.law_spec import LAW_RULES, Law, reaches
 from springcad.spec.common import (
     AutoLength,
     CommonSpec,
@@ -26,6 +27,7 @@ from springcad.spec.common import (
     below_process,
     default,
 )
+from springcad.spec.points import Points
 from springcad.spec.rules import Rule, Section, rule
 from springcad.spec.units import LENGTH, show
 
@@ -35,8 +37,10 @@ TEMPLATE = files(__package__).joinpath("template.yaml").read_text(encoding="utf-
 class Target(Section):
     """What the spring is to do."""
 
-    stiffness: TorsionalStiffness
-    """Torsional stiffness of the whole spring, in N*m/rad or N*m/deg."""
+    stiffness: TorsionalStiffness | None = None
+    """Constant torsional stiffness of the whole spring, in N*m/rad or N*m/deg; or a law."""
+    law: Law | None = None
+    """Torque of the whole spring over the angle, in place of a constant stiffness."""
     deflection: Annotated[float, angle("0.01 deg", "60 deg")]
     """Largest deflection in normal use, one way from rest, in deg."""
 
@@ -125,6 +129,23 @@ class Optimiser(Section):
     """What the cost weighs more, the gap or the sharpness of bends; for control-points only."""
 
 
+@rule("target")
+def _stiffness_or_law(target: Target) -> str | None:
+    if (target.stiffness is None) != (target.law is None):
+        return None
+    return f"give one of stiffness, law; {'none' if target.law is None else 'both'} given"
+
+
+@rule("target.law.table", "target.deflection")
+def _torque_table_reaches(points: Points | None, deflection: float) -> str | None:
+    return reaches(points, deflection)
+
+
+@rule("target.law.stiffness.table", "target.deflection")
+def _stiffness_table_reaches(points: Points | None, deflection: float) -> str | None:
+    return reaches(points, deflection)
+
+
 @rule("envelope.root_radius", "envelope.outer_radius", "process")
 def _rim(root: float, outer: float, process: ProcessSpec) -> str | None:
     if root >= outer:
@@ -205,6 +226,10 @@ class RotaryFlexureSpec(CommonSpec):
     """A rotary flexure spring (paper 004)."""
 
     RULES: ClassVar[tuple[Rule, ...]] = (
+        _stiffness_or_law,
+        *LAW_RULES,
+        _torque_table_reaches,
+        _stiffness_table_reaches,
         _rim,
         _flexure_length,
         _bore,

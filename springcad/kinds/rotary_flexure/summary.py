@@ -55,6 +55,8 @@ def _design(spring: Spring) -> dict[str, Value]:
         "mounting": mounting_of(spring.spec),
         "mass_kg": spring.mass,
         "style": found.style,
+        "law": spring.target.words,
+        "loaded_radius_m": law.inputs.loaded_radius,
         "tip_force_N": law.force,
         "flexure_span_m": law.span,
         "flexure_length_m": found.ribbon.length,
@@ -143,10 +145,11 @@ def _outcomes(spring: Spring) -> tuple[Outcome, ...]:
         return value
 
     return (
-        Outcome("stiffness", number("stiffness_Nm_per_rad"), "N*m/rad", law.inputs.stiffness,
+        Outcome("stiffness", number("stiffness_Nm_per_rad"), "N*m/rad",
+                law.torque / spring.target.deflection,
                 "secant at the design deflection, mean of both directions"),
         Outcome("deflection, each way", number("max_deflection_rad"), "rad",
-                law.inputs.deflection),
+                spring.target.deflection),
         Outcome("torque at the design deflection", number("max_torque_Nm"), "N*m", law.torque),
         Outcome("energy", number("energy_J"), "J", law.energy),
         Outcome("mass of the ring", spring.mass, "kg"),
@@ -211,7 +214,8 @@ def _radius(label: str, value: float, degrees: float) -> Dimension:
 def _plots(spring: Spring) -> tuple[Plot, ...]:
     forward, backward = spring.strokes
     angle = both_ways(forward.angle, -backward.angle)
-    stiffness, allowed = spring.law.inputs.stiffness, spring.law.inputs.design_stress
+    allowed = spring.law.inputs.design_stress
+    wanted = np.sign(angle) * spring.target.torque(np.abs(angle))
     along = [
         Series(
             f"{kind}, {way}",
@@ -226,7 +230,7 @@ def _plots(spring: Spring) -> tuple[Plot, ...]:
         Plot("Torque", "angle", "rad", "torque", "N*m",
              (Series("spring on its camshaft", angle,
                      both_ways(forward.torque, -backward.torque)),
-              Series("target", angle, stiffness * angle, dashed=True),
+              Series("target", angle, wanted, dashed=True),
               *_friction_series(spring))),
         Plot("Stress along a flexure at the design deflection", "distance from the root", "m",
              "stress", "Pa", tuple(along), limit=allowed),
@@ -300,6 +304,8 @@ def _friction_assumption(coefficient: float) -> str:
 
 
 def _advice(spring: Spring) -> Iterator[str]:
+    if spring.spec.target.law is not None:
+        return
     bound = _deflection_bound(spring)
     yield (
         f"The design deflection is {spring.law.inputs.deflection / bound:.0%} of "
