@@ -179,6 +179,7 @@ def _camshaft(spring: Spring) -> Iterator[Check]:
     yield check(
         "interference of camshaft and tips in the stroke", camshaft.overlap, "<=",
         CAM_INTERFERENCE, "m", source="deformed tips against the teeth, at every angle solved",
+        remedy=f"raise camshaft.backlash by {math.ceil(1e5 * camshaft.overlap) / 1e2:g} mm",
     )  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from springcad.mechanics.torque_law import TorqueLaw
 Floats = NDArray[np.float64]
 
 DIRECTIONS = (1, -1)
-LOADS = 8
+LOADS = 16
 """Evenly spaced angles up to the design deflection at which a flexure is looked at: under a law
 that stiffens, its tip may bear more on the way than at the end."""
 
