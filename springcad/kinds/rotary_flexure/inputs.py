@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,7 +33,7 @@ def case_of(model: CommonSpec) -> Case:
     else:
         torque, energy, at_rest = full_load_of(spec)
         stiffness, deflection = torque**2 / (2.0 * energy), 2.0 * energy / torque
-        law = LawDemand(torque, stiffness / at_rest if at_rest > 0.0 else math.inf)
+        law = LawDemand(torque, at_rest)
     return Case(
         inputs=LawInputs(
             stiffness=stiffness,
