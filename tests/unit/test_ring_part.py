@@ -144,8 +144,9 @@ def test_the_area_of_the_straight_ring_follows_from_closed_forms() -> None:
     """Rim less dowel lenses, plus 24 parabolas, pads, half-round noses, fillets and blends.
 
     The parabola 2 lambda_r sqrt(1 - x/l), whose end l is the contact at full load, covers
-    4/3 l lambda_r (1 - w^3) down to the pad of w = tip over root; a fillet against a straight edge and a straight rim
-    is (1 - pi/4) r^2, to which the slopes of taper and rim add some per cent.
+    4/3 l lambda_r (1 - w^3) down to the pad of w = tip over root; a fillet against a straight
+    edge and a straight rim is (1 - pi/4) r^2, to which the slopes of taper and rim add some per
+    cent.
     """
     spring = spring_of("S1")
     inputs = spring.law.inputs
