@@ -113,14 +113,20 @@ def test_these_are_all_checks_that_follow_the_search() -> None:
     spring = spring_of("S2")
     before = {claim.name for claim in spring.feasibility}
     rest = "stiffness at rest with contact at the contact radius, deviation from the target"
-    others = {rest, "nominal stress at full load"}
+    torque = {
+        f"torque {way}, largest deviation from the law over the full torque"
+        for way in ("clockwise", "counter-clockwise")
+    }
+    others = {rest, "nominal stress at full load", *torque}
     assert {claim.name for claim in spring_checks(spring)} - before == {*FAULTS, *others}
 
 
-def test_too_much_stress_and_a_wrong_stiffness_at_rest_fail() -> None:
+def test_too_much_stress_a_wrong_stiffness_at_rest_and_a_wrong_law_fail() -> None:
     spring = spring_of("S2")
     stiffer = replace(spring, sized=replace(spring.sized, stiffness_at_rest=150.2))
+    wrong = "torque clockwise, largest deviation from the law over the full torque"
     for name, broken in (
+        (wrong, with_stroke(torque=1.011)(spring)),
         ("nominal stress at full load", with_stroke(nominal_stress=1.006)(spring)),
         (
             "stiffness at rest with contact at the contact radius, deviation from the target",

@@ -84,7 +84,7 @@ def test_the_contact_stays_for_a_constant_stiffness_and_moves_farther_the_more_i
 
     assert shift(1.0) == shift(0.95) == 0.0
     shifts = [shift(s) for s in (1.1, 1.5, 2.0, 3.0)]
-    assert 0.0 < shifts[0]
+    assert shifts[0] > 0.0
     assert shifts == sorted(shifts)
     assert math.isnan(shift(1e4))
 
