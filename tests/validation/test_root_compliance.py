@@ -181,8 +181,8 @@ def test_the_beam_with_the_root_spring_bends_like_the_sector_at_full_load(name: 
             for b in (beam, clamped)
         ]
         assert moved[0] == pytest.approx(elements, rel=5e-4)
-        # The design chose fillets that leave the root no stiffer than a clamp.
-        assert moved[1] == pytest.approx(elements, rel=0.02)
+        # The design chose fillets that leave the root no stiffer than a clamp, on dowels.
+        assert moved[1] == pytest.approx(elements, rel=0.022)
 
 
 @pytest.mark.parametrize("name", ["S1", "S3"])

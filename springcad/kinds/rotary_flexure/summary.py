@@ -278,8 +278,8 @@ def _assumptions(spring: Spring) -> tuple[str, ...]:
             if play > 0.0
             else ()
         ),
-        "The design law is that of small deflections; stiffness, stress and gaps of the finished "
-        "spring are those of a beam with large deflections, shear and axial force.",
+        "Stiffness, stress and gaps are those of a beam with large deflections, shear and axial "
+        "force; flexures are sized by it.",
         f"The stress compared with material.design_stress is the {spec.stress} one; the root "
         "fillets are reported apart.",
         "The design stress is taken as given: fatigue life, surface and edge quality of the cut "
