@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
-from springcad.kinds.roller_cam.law import Law, Rise, exponential, law_of
+from springcad.kinds.target_law import Law, Rise, exponential, law_of
 from springcad.mechanics.torque_law import TorqueLaw
 
 DEGREE = np.pi / 180.0

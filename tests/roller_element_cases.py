@@ -8,8 +8,8 @@ from functools import cache
 
 from springcad.kinds.roller_cam.element import ElementDimensions, Mount, Mounting
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
-from springcad.kinds.roller_cam.law import Law, exponential, law_of
 from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
+from springcad.kinds.target_law import Law, exponential, law_of
 
 DEGREE = math.pi / 180.0
 JOINT = Joint(Cantilever(24.4e-3, 4.9e-3, 3.4e-3, 206e9, 0.29), Roller(4e-3, 40e-3, 8.95e-3))

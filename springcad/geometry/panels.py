@@ -7,6 +7,7 @@ taper); inside each panel functions are represented by their values at Gauss-Leg
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +53,7 @@ class PanelGrid:
         return matrix
 
 
+@cache
 def _to_legendre(order: int) -> Floats:
     """Matrix from values at the Gauss nodes to Legendre coefficients."""
     nodes, weights = np.polynomial.legendre.leggauss(order)

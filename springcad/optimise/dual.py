@@ -108,3 +108,10 @@ def power(base: Dual, exponent: float) -> Dual:
 def absolute(signed: Dual) -> Dual:
     """Absolute value; the derivative at zero is taken as zero."""
     return signed.through(np.abs(signed.value), np.sign(signed.value))
+
+
+def distance(variables: Floats, target: Floats, at: slice) -> Dual:
+    """Half the square of the distance of some of the variables from ``target`` (V,), length 1."""
+    apart = np.zeros_like(variables)
+    apart[at] = (variables - target)[at]
+    return Dual(np.array([0.5 * apart @ apart]), apart[None, :])

@@ -27,8 +27,8 @@ from springcad.kinds.roller_cam.element import (
     require_room,
 )
 from springcad.kinds.roller_cam.element_mesh import COARSE, EDGE_SETS, FINE, Density, element_mesh
-from springcad.kinds.roller_cam.law import law_of, polynomial
 from springcad.kinds.roller_cam.synthesis import synthesise
+from springcad.kinds.target_law import law_of, polynomial
 from springcad.mechanics.fem.blocks import mesh_area, smallest_scaled_jacobian
 
 

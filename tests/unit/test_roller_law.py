@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from springcad.kinds.roller_cam.interpolation import rising_curve
-from springcad.kinds.roller_cam.law import (
+from springcad.kinds.interpolation import rising_curve
+from springcad.kinds.target_law import (
     OVERRUN,
     Law,
     Rise,

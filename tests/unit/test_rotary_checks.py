@@ -52,7 +52,7 @@ def bent_sideways(spring: Spring) -> Spring:
 
 def more_curved(spring: Spring) -> Spring:
     ribbon = spring.found.ribbon
-    return with_found(spring, ribbon=replace(ribbon, curvature=1.01 * ribbon.curvature))
+    return with_found(spring, ribbon=replace(ribbon, curvature=1.05 * ribbon.curvature))
 
 
 def with_sharper_root(spring: Spring) -> Spring:
@@ -91,10 +91,9 @@ def checks_of(name: str, *overrides: str) -> dict[str, Check]:
     return {claim.name: claim for claim in spring_checks(spring_of(name, *overrides))}
 
 
-def test_s2_passes_everything_but_two_stresses_of_which_it_warns() -> None:
+def test_s2_passes_everything_but_the_root_fillets_of_which_it_warns() -> None:
     found = statuses("S2")
     assert {name: status for name, status in found.items() if status != "pass"} == {
-        "nominal stress at large deflections": WARN,
         "root fillet stress against yield": WARN,
     }
 
@@ -113,37 +112,60 @@ def test_each_claim_speaks_up_when_it_is_broken(name: str) -> None:
 def test_these_are_all_checks_that_follow_the_search() -> None:
     spring = spring_of("S2")
     before = {claim.name for claim in spring.feasibility}
-    stresses = {"nominal stress by the design law", "nominal stress at large deflections"}
-    assert {claim.name for claim in spring_checks(spring)} - before == {*FAULTS, *stresses}
+    rest = "stiffness at rest with contact at the contact radius, deviation from the target"
+    torque = {
+        f"torque {way}, largest deviation from the law over the full torque"
+        for way in ("clockwise", "counter-clockwise")
+    }
+    others = {rest, "nominal stress at full load", *torque}
+    assert {claim.name for claim in spring_checks(spring)} - before == {*FAULTS, *others}
 
 
-def test_a_straight_flexure_that_is_too_weak_fails_on_the_design_law_s_stress() -> None:
-    """Within the tolerance of feasibility it cannot: 0.75 % of f_s are 0.5 % of stress."""
-    spring = spring_of("S1")
-    ribbon = spring.found.ribbon
-    thin = with_found(spring, ribbon=replace(ribbon, half_thickness=0.98 * ribbon.half_thickness))
-    found = {claim.name: claim for claim in spring_checks(thin)}
-    assert checks_of("S1")["nominal stress by the design law"].status == "pass"
-    assert found["nominal stress by the design law"].status == FAIL
+def test_too_much_stress_a_wrong_stiffness_at_rest_and_a_wrong_law_fail() -> None:
+    spring = spring_of("S2")
+    stiffer = replace(spring, sized=replace(spring.sized, stiffness_at_rest=150.2))
+    wrong = "torque clockwise, largest deviation from the law over the full torque"
+    for name, broken in (
+        (wrong, with_stroke(torque=1.011)(spring)),
+        ("nominal stress at full load", with_stroke(nominal_stress=1.006)(spring)),
+        (
+            "stiffness at rest with contact at the contact radius, deviation from the target",
+            stiffer,
+        ),
+    ):
+        found = {claim.name: claim for claim in spring_checks(broken)}
+        assert checks_of("S2")[name].status == "pass"
+        assert found[name].status == FAIL
 
 
-def test_local_stress_is_held_by_the_law_and_judged_instead_of_the_nominal_one() -> None:
-    """S2 with a little less deflection, for which the inner fibres need not exceed 912 MPa."""
-    found = checks_of("S2", "stress=local", "target.deflection=13.3 deg")
-    law = found["inner-fibre stress by the design law"]
-    assert (law.status, law.value) == ("pass", pytest.approx(912e6, rel=5e-3))
-    assert law.limit == pytest.approx(1.005 * 912e6)
+LOCAL = ("S2", "stress=local", "target.stiffness=100 N*m/rad", "target.deflection=15 deg")
+
+
+def test_local_stress_is_held_and_judged_instead_of_the_nominal_one() -> None:
+    """S2, softer: its flexures have room for what the inner fibres ask for."""
+    found = checks_of(*LOCAL)
+    held = found["inner-fibre stress at full load"]
+    assert (held.status, held.value) == ("pass", pytest.approx(912e6, rel=5e-3))
+    assert held.limit == pytest.approx(1.005 * 912e6)
     assert not any(name.startswith("nominal stress") for name in found)
-    large = found["inner-fibre stress at large deflections"]
-    assert 912e6 < large.value < 1.09 * 912e6
-    assert large.status == WARN
-    assert "this part reaches it at" in large.remedy
 
 
 def test_inner_fibres_beyond_yield_fail_where_they_are_what_is_asked_for() -> None:
-    spring = spring_of("S2", "stress=local", "target.deflection=13.3 deg")
+    spring = spring_of(*LOCAL)
     found = {c.name: c for c in spring_checks(with_stroke(local_stress=1.6)(spring))}
     assert found["inner-fibre stress against yield"].status == FAIL
+
+
+def test_roots_are_thickened_until_their_fillets_keep_the_stress_asked_for() -> None:
+    """Unasked the fillets of S2 bear 1580 MPa; the rest of the flexure stays fully stressed."""
+    asked = ("S2", "flexures.fillet_stress=1400 MPa")
+    plain, thicker = spring_of("S2"), spring_of(*asked)
+    assert root_fillet_stress(plain) > 1.5e9
+    assert root_fillet_stress(thicker) == pytest.approx(1.4e9, rel=5e-3)
+    assert checks_of(*asked)["root fillet stress"].status == "pass"
+    roots = [float(s.found.ribbon.half_thickness[0]) for s in (plain, thicker)]
+    assert roots[1] > 1.05 * roots[0]
+    assert max(s.nominal_stress.max() for s in thicker.strokes) == pytest.approx(912e6, rel=5e-3)
 
 
 def test_the_root_fillet_stress_is_the_root_s_times_the_factor_of_the_fillet() -> None:

@@ -19,7 +19,7 @@ from springcad.kinds.rotary_flexure.shape import straight_ribbon
 def test_the_gap_of_straight_flexures_is_at_the_pinch_or_between_the_tips(name: str) -> None:
     """Whichever is smaller: 1.25 and 1.22 mm for S1, 0.63 and 0.68 mm for S4."""
     law, inputs = law_of(name), law_of(name).inputs
-    ribbon = straight_ribbon(problem_for(name, 0.3), 1.0)
+    ribbon = straight_ribbon(problem_for(name, 0.3))
     pinch = neighbour_gap(
         law.span,
         inputs.contact_radius,

@@ -24,9 +24,9 @@ from springcad.kinds.roller_cam.element import first_place
 from springcad.kinds.roller_cam.element_mesh import Density
 from springcad.kinds.roller_cam.forward import forward
 from springcad.kinds.roller_cam.inputs import group_law, roller_spec
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.pseudo_law import TorqueCurve, simplest
+from springcad.kinds.target_law import Law
 from springcad.spec.source import read_spec
 
 SPECS = Path(__file__).parents[2] / "specs"

@@ -22,9 +22,9 @@ from roller_cases import (
 )
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.roller_cam.law import sampled
 from springcad.kinds.roller_cam.part import STATION_LIMITS, linear_part
 from springcad.kinds.roller_cam.tip import linear_tip
+from springcad.kinds.target_law import sampled
 from springcad.mechanics.cam_contact import seat
 from springcad.mechanics.conjugate import Flank, between, conjugate_flank
 from springcad.mechanics.elastic_part import ElasticPart

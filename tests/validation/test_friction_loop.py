@@ -14,6 +14,7 @@ from rotary_cases import law_of, problem_for
 
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft, seated
 from springcad.kinds.rotary_flexure.flexure_contact import flexure_beam
+from springcad.kinds.rotary_flexure.problem import thickened
 from springcad.kinds.rotary_flexure.shape import straight_ribbon
 from springcad.mechanics.friction import FrictionLoop, friction_loop
 
@@ -23,7 +24,7 @@ COUNT, RATE, DEFLECTION = 24, 150.0, np.radians(12.56)
 @cache
 def loop(coefficient: float) -> FrictionLoop:
     law, problem = law_of("S1"), problem_for("S1", 0.3)
-    ribbon = straight_ribbon(problem, law.straight_thickness_factor)
+    ribbon = straight_ribbon(thickened(problem, law.straight_thickness_factor))
     beam = flexure_beam(ribbon, thickness=4.5e-3, elastic_modulus=200e9, poisson_ratio=0.3)
     inputs = CamshaftInputs(
         root_radius=31e-3,

@@ -10,11 +10,11 @@ from roller_cases import DEGREE, EXPONENTIAL, FULL, PAPER, power
 
 from springcad.kinds.roller_cam.curve import curve_through
 from springcad.kinds.roller_cam.forward import forward
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.part import exact_part, linear_part, printed_part
 from springcad.kinds.roller_cam.stepwise import EQUATIONS, Chord, Steps, distance, march, printed
 from springcad.kinds.roller_cam.synthesis import synthesise
 from springcad.kinds.roller_cam.tip import linear_carried, linear_tip
+from springcad.kinds.target_law import Law
 
 EXACT_END = 38.356100
 """Contact angle at 1.9 deg (oracle row A10, deg)."""

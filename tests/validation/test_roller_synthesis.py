@@ -22,10 +22,10 @@ from springcad.kinds.roller_cam.forward import (
     roller_friction,
 )
 from springcad.kinds.roller_cam.joint import Joint
-from springcad.kinds.roller_cam.law import Law, law_of, sampled, table
 from springcad.kinds.roller_cam.part import STATION_LIMITS, exact_part, linear_part
 from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
 from springcad.kinds.roller_cam.tip import carried, exact_tip, linear_carried, linear_tip
+from springcad.kinds.target_law import Law, law_of, sampled, table
 from springcad.mechanics.cam_contact import seat
 from springcad.mechanics.conjugate import conjugate_flank, hertz_pressure, until
 from springcad.mechanics.contact import contact_modulus, peak_pressure

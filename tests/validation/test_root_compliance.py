@@ -55,7 +55,7 @@ FLANK_STRESS = 891e6
 
 
 def straight_s1(fillet_over_root: float, rim_over_root: float) -> SectorGeometry:
-    ribbon = straight_ribbon(problem_for("S1", 0.3), 1.0)
+    ribbon = straight_ribbon(problem_for("S1", 0.3))
     root = 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
     outer = 31e-3 + rim_over_root * root
     return SectorGeometry(ribbon, 31e-3, outer, 24, fillet_over_root * root, 0.225e-3)
@@ -181,8 +181,8 @@ def test_the_beam_with_the_root_spring_bends_like_the_sector_at_full_load(name: 
             for b in (beam, clamped)
         ]
         assert moved[0] == pytest.approx(elements, rel=5e-4)
-        # The design chose fillets that leave the root no stiffer than a clamp.
-        assert moved[1] == pytest.approx(elements, rel=0.02)
+        # The design chose fillets that leave the root no stiffer than a clamp, on dowels.
+        assert moved[1] == pytest.approx(elements, rel=0.022)
 
 
 @pytest.mark.parametrize("name", ["S1", "S3"])

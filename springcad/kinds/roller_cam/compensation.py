@@ -26,7 +26,6 @@ from springcad.kinds.roller_cam.contact_compliance import ProfileCompliance, pro
 from springcad.kinds.roller_cam.element import ElementDimensions
 from springcad.kinds.roller_cam.forward import forward
 from springcad.kinds.roller_cam.joint import Joint
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.part import ContactCompliance
 from springcad.kinds.roller_cam.pseudo_law import (
     AngleRatio,
@@ -36,6 +35,7 @@ from springcad.kinds.roller_cam.pseudo_law import (
     shifted,
 )
 from springcad.kinds.roller_cam.synthesis import OVERRUNS, ContactProfile, synthesise
+from springcad.kinds.target_law import Law
 
 Floats = NDArray[np.float64]
 Method = Literal["none", "shift", "multiplicative", "compliance"]

@@ -18,7 +18,6 @@ from springcad.errors import InfeasibleError, Problem, SpecError
 from springcad.kinds.roller_cam.element import ElementDimensions
 from springcad.kinds.roller_cam.inputs import group_law
 from springcad.kinds.roller_cam.joint import Joint
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.pseudo_law import (
     AngleRatio,
     TorqueCurve,
@@ -27,6 +26,7 @@ from springcad.kinds.roller_cam.pseudo_law import (
 )
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.roller_cam.written_joint import written_joint
+from springcad.kinds.target_law import Law
 from springcad.result import Value
 from springcad.spec.source import Spec, restored_spec
 from springcad.spec.torque_curve import TorqueFile

@@ -38,7 +38,6 @@ from springcad.kinds.roller_cam.forward import (
 )
 from springcad.kinds.roller_cam.inputs import case_of, group_law, joint_of, roller_spec
 from springcad.kinds.roller_cam.joint import Joint
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.part import exact_part, linear_part
 from springcad.kinds.roller_cam.pseudo_law import TorqueCurve, expected_angle, pseudo_law
@@ -49,6 +48,7 @@ from springcad.kinds.roller_cam.stepwise import distance, march, printed
 from springcad.kinds.roller_cam.summary import summarise
 from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
 from springcad.kinds.roller_cam.tip import linear_tip
+from springcad.kinds.target_law import Law
 from springcad.mechanics.conjugate import until
 from springcad.mechanics.friction import FrictionLoop
 from springcad.result import Progress, Result

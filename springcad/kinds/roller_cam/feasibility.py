@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.feasible import advised, require_all
+from springcad.kinds.interpolation import ROUND_OFF
 from springcad.kinds.knobs import Knob, remedies
-from springcad.kinds.roller_cam.interpolation import ROUND_OFF
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.part import roller_contact
 from springcad.kinds.roller_cam.tip import linear_tip
+from springcad.kinds.target_law import Law
 from springcad.mechanics.section import SHEAR_CORRECTION, area
 from springcad.result import Check, check
 

@@ -4,22 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
+from springcad.kinds.given_law import rise_of
 from springcad.kinds.roller_cam.feasibility import Case
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
-from springcad.kinds.roller_cam.law import (
-    Law,
-    Rise,
-    exponential,
-    law_of,
-    polynomial,
-    stiffness_polynomial,
-    stiffness_table,
-    table,
-)
-from springcad.kinds.roller_cam.sections import Law as LawSpec
 from springcad.kinds.roller_cam.spec import RollerCamSpec
+from springcad.kinds.target_law import Law, law_of
 from springcad.spec.common import CommonSpec
 
 
@@ -33,29 +22,12 @@ def roller_spec(model: CommonSpec) -> RollerCamSpec:
 def group_law(spec: RollerCamSpec) -> Law:
     """The law of one group."""
     target = spec.target
-    rise = _rise(target.law, target.deflection - target.dead_zone)
+    rise = rise_of(target.law, target.deflection - target.dead_zone)
     if target.per == "group" or spec.groups == 1:
         return law_of(rise, target.deflection, dead_zone=target.dead_zone)
     rise = replace(rise, words=f"{rise.words}, shared by {spec.groups} groups")
     share = 1.0 / spec.groups
     return law_of(rise, target.deflection, dead_zone=target.dead_zone, share=share)
-
-
-def _rise(law: LawSpec, stroke: float) -> Rise:
-    """The law over the angle from the end of the dead zone; exactly one form of it is given."""
-    if law.exponential is not None:
-        return exponential(law.exponential.scale, law.exponential.decade)
-    if law.linear is not None:
-        return polynomial((law.linear,), stroke)
-    if law.polynomial is not None:
-        return polynomial(law.polynomial, stroke)
-    if law.table is not None:
-        return table(np.array(law.table))
-    if law.stiffness is not None and law.stiffness.table is not None:
-        return stiffness_table(np.array(law.stiffness.table))
-    if law.stiffness is not None and law.stiffness.polynomial is not None:
-        return stiffness_polynomial(law.stiffness.polynomial, stroke)
-    raise ValueError("a valid spec has a law")
 
 
 def joint_of(spec: RollerCamSpec) -> Joint:

@@ -15,8 +15,8 @@ from springcad.kinds.roller_cam.element import ElementGeometry
 from springcad.kinds.roller_cam.feasibility import Case
 from springcad.kinds.roller_cam.forward import Stroke
 from springcad.kinds.roller_cam.joint import Joint
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.spec import RollerCamSpec
+from springcad.kinds.target_law import Law
 from springcad.mechanics.friction import FrictionLoop
 from springcad.result import Check
 

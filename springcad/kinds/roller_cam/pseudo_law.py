@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.roller_cam.law import OVERRUN, Law
+from springcad.kinds.target_law import OVERRUN, Law
 
 Floats = NDArray[np.float64]
 

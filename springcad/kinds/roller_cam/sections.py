@@ -6,81 +6,18 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from springcad.spec.common import Length, Quantity, TorsionalStiffness, angle, default
-from springcad.spec.csv_columns import Column
-from springcad.spec.lists import Bounds, Coefficients
-from springcad.spec.points import CurvePoints, Point, Points
+from springcad.kinds.law_spec import Law
+from springcad.spec.common import Length, Quantity, angle, default
+from springcad.spec.lists import Bounds
 from springcad.spec.rules import Section
-from springcad.spec.units import ANGLE, LENGTH, LINEAR_STIFFNESS, STIFFNESS, TORQUE, show
+from springcad.spec.units import LENGTH, LINEAR_STIFFNESS
 
 DEFLECTION = ("0.01 deg", "30 deg")
 """Range of the deflection; the roller leaves the plane of the profile by R (1 - cos β)."""
 
-LEAST_STEP = 1e-7
-"""Between the angles of two points, rad."""
-
-
-def _torque_fault(before: Point | None, point: Point) -> str | None:
-    torque = point[1]
-    if before is None:
-        if torque == 0.0:
-            return None
-        return f"torque at 0 is {show(torque, TORQUE)}; must be 0: a mirrored pair has no preload"
-    if torque == 0.0:
-        return f"no torque up to {show(point[0], ANGLE)}: give that as target.dead_zone instead"
-    if torque < before[1]:
-        return f"torque falls; it must not be less than the {show(before[1], TORQUE)} before it"
-    return None
-
-
-def _stiffness_fault(_: Point | None, point: Point) -> str | None:
-    return None if point[1] >= 0.0 else "stiffness must not be negative"
-
-
-_ANGLE = Column("angle", Quantity(ANGLE, "0 deg", "60 deg"))
-_TORQUE = Column("torque", Quantity(TORQUE, "0 N*m", "1000000 N*m"))
-_STIFFNESS = Column("stiffness", Quantity(STIFFNESS, "0 N*m/rad", "1000000000 N*m/rad"))
-
-TorquePoints: TypeAlias = Annotated[Points, CurvePoints(_ANGLE, _TORQUE, LEAST_STEP, _torque_fault)]
-StiffnessPoints: TypeAlias = Annotated[
-    Points, CurvePoints(_ANGLE, _STIFFNESS, LEAST_STEP, _stiffness_fault)
-]
 LengthBounds: TypeAlias = Annotated[
     tuple[float, float], Bounds(Quantity(LENGTH, "0.01 mm", "10 m"))
 ]
-
-
-class Exponential(Section):
-    """Torque scale (10^(angle/decade) - 1), the law of paper 001."""
-
-    scale: Annotated[float, Quantity(TORQUE, "0.000000001 N*m", "1000000 N*m")]
-    """Factor of the law, in N*m: what the torque and it together have grown from."""
-    decade: Annotated[float, angle("0.001 deg", "1000 deg")]
-    """Angle in which torque plus scale grows tenfold, in deg."""
-
-
-class Stiffness(Section):
-    """Stiffness against angle, integrated to the torque: one of table and polynomial."""
-
-    table: StiffnessPoints | None = None
-    """CSV file (angle, stiffness) beside the spec, or pairs [angle, stiffness]."""
-    polynomial: Annotated[tuple[float, ...], Coefficients(1)] | None = None
-    """Coefficients of 1, angle, angle^2, ...: N*m/rad, N*m/rad^2, ... or per deg, deg^2, ..."""
-
-
-class Law(Section):
-    """Torque over the angle from the end of the dead zone: exactly one of these."""
-
-    exponential: Exponential | None = None
-    """Torque scale (10^(angle/decade) - 1), the law of paper 001."""
-    linear: TorsionalStiffness | None = None
-    """A constant stiffness, in N*m/rad or N*m/deg."""
-    polynomial: Annotated[tuple[float, ...], Coefficients(1)] | None = None
-    """Coefficients of angle, angle^2, ...: N*m/rad, N*m/rad^2, ... or per deg, deg^2, ..."""
-    table: TorquePoints | None = None
-    """CSV file (angle, torque) beside the spec, or pairs [angle, torque]; from 0, never falling."""
-    stiffness: Stiffness | None = None
-    """Stiffness against angle, integrated to the torque."""
 
 
 class Target(Section):

@@ -17,7 +17,6 @@ from springcad.kinds.knobs import Knob
 from springcad.kinds.roller_cam.feasibility import Case, failures, require_feasible
 from springcad.kinds.roller_cam.inputs import case_of
 from springcad.kinds.roller_cam.joint import Cantilever, Joint
-from springcad.kinds.roller_cam.law import Law
 from springcad.kinds.roller_cam.remedies import stepped_remedies
 from springcad.kinds.roller_cam.sizing_search import (
     ENERGY_RESERVE,
@@ -35,6 +34,7 @@ from springcad.kinds.roller_cam.sizing_search import (
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.roller_cam.synthesis import synthesise
 from springcad.kinds.roller_cam.tip import exact_tip, linear_tip
+from springcad.kinds.target_law import Law
 from springcad.optimise.sqp import Solution
 
 KEYS = {"length": "cantilever.length", "height": "cantilever.height", "width": "envelope.thickness"}

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 from springcad.kinds.roller_cam.feasibility import lowest_point
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
-from springcad.kinds.roller_cam.law import Law, sampled
 from springcad.kinds.roller_cam.part import STATION_LIMITS, part_with, roller_contact
 from springcad.kinds.roller_cam.synthesis import rises_at_once
 from springcad.kinds.roller_cam.tip import TipModel, linear_tip
+from springcad.kinds.target_law import Law, sampled
 from springcad.mechanics.conjugate_contact import balance, find_contacts
 from springcad.mechanics.torque_law import TorqueLaw, share_of_one
 from springcad.optimise.sqp import Evaluation, Problem, Solution, best, solve_from_many

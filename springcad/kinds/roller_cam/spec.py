@@ -11,51 +11,23 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from springcad.kinds.law_spec import LAW_RULES, reaches
 from springcad.kinds.roller_cam.sections import (
     CantileverSpec,
     ContactPart,
     Drum,
     Envelope,
-    Law,
     Mount,
     Stepwise,
-    Stiffness,
     Target,
 )
 from springcad.spec.common import CommonSpec, ProcessEntry, ProcessSpec, below_process
 from springcad.spec.material import MaterialSpec
 from springcad.spec.points import Points
-from springcad.spec.rules import Rule, Section, rule
+from springcad.spec.rules import Rule, rule
 from springcad.spec.units import ANGLE, LENGTH, show
 
 TEMPLATE = files(__package__).joinpath("template.yaml").read_text(encoding="utf-8")
-
-MOST_DECADES = 12
-
-
-@rule("target.law")
-def _one_law(law: Law) -> str | None:
-    return _exactly_one(law)
-
-
-@rule("target.law.stiffness")
-def _one_stiffness(stiffness: Stiffness | None) -> str | None:
-    return None if stiffness is None else _exactly_one(stiffness)
-
-
-def _exactly_one(section: Section) -> str | None:
-    known = list(type(section).model_fields)
-    given = [name for name in known if getattr(section, name) is not None]
-    if len(given) == 1:
-        return None
-    return f"give one of {', '.join(known)}; {' and '.join(given) or 'none'} given"
-
-
-@rule("target.law.exponential.decade", "target.deflection")
-def _decades(decade: float, deflection: float) -> str | None:
-    if deflection <= MOST_DECADES * decade:
-        return None
-    return f"the torque grows by more than {MOST_DECADES} decades up to {show(deflection, ANGLE)}"
 
 
 @rule("target.dead_zone", "target.deflection")
@@ -65,19 +37,12 @@ def _dead_zone(dead_zone: float, deflection: float) -> str | None:
 
 @rule("target.law.table", "target.deflection", "target.dead_zone")
 def _torque_table_reaches(points: Points | None, deflection: float, dead: float) -> str | None:
-    return _reaches(points, deflection - dead)
+    return reaches(points, deflection - dead)
 
 
 @rule("target.law.stiffness.table", "target.deflection", "target.dead_zone")
 def _stiffness_table_reaches(points: Points | None, deflection: float, dead: float) -> str | None:
-    return _reaches(points, deflection - dead)
-
-
-def _reaches(points: Points | None, stroke: float) -> str | None:
-    if points is None or points[-1][0] >= stroke * (1.0 - 1e-9):
-        return None
-    ends, wanted = show(points[-1][0], ANGLE), show(stroke, ANGLE)
-    return f"ends at {ends}, but must reach the deflection less the dead zone, {wanted}"
+    return reaches(points, deflection - dead)
 
 
 @rule("joint.roller_radius", "joint.drum_radius")
@@ -159,9 +124,7 @@ class RollerCamSpec(CommonSpec):
     """A roller cam: a cantilever with a contact profile for a given torque law (paper 001)."""
 
     RULES: ClassVar[tuple[Rule, ...]] = (
-        _one_law,
-        _one_stiffness,
-        _decades,
+        *LAW_RULES,
         _dead_zone,
         _torque_table_reaches,
         _stiffness_table_reaches,

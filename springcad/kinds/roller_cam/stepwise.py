@@ -18,9 +18,9 @@ from scipy.optimize import brentq, fsolve
 
 from springcad.kinds.roller_cam.curve import ProfileCurve
 from springcad.kinds.roller_cam.joint import Joint
-from springcad.kinds.roller_cam.law import Law, sampled
 from springcad.kinds.roller_cam.part import STATION_LIMITS, printed_part
 from springcad.kinds.roller_cam.synthesis import rises_at_once
+from springcad.kinds.target_law import Law, sampled
 from springcad.mechanics.conjugate import conjugate_flank
 from springcad.mechanics.elastic_part import ContactState, ElasticPart
 from springcad.mechanics.plane import rotated

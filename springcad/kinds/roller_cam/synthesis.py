@@ -16,7 +16,6 @@ from scipy.interpolate import CubicSpline
 from springcad.errors import InfeasibleError
 from springcad.kinds.roller_cam.curve import ProfileCurve, curve_through
 from springcad.kinds.roller_cam.joint import Cantilever, Joint
-from springcad.kinds.roller_cam.law import Law, sampled
 from springcad.kinds.roller_cam.part import (
     STATION_LIMITS,
     ContactCompliance,
@@ -24,6 +23,7 @@ from springcad.kinds.roller_cam.part import (
     roller_contact,
 )
 from springcad.kinds.roller_cam.tip import TipModel, TipState, exact_tip
+from springcad.kinds.target_law import Law, sampled
 from springcad.mechanics.conjugate import Flank, conjugate_flank
 from springcad.mechanics.flank_faults import require_no_fold, require_no_undercut
 

@@ -35,7 +35,7 @@ from springcad.geometry.clamped_spline import (
 )
 from springcad.geometry.neighbours import neighbour_gaps, zone_index
 from springcad.geometry.ribbon import Ribbon
-from springcad.kinds.rotary_flexure.problem import FlexureProblem
+from springcad.kinds.rotary_flexure.problem import FlexureProblem, pad_energy
 from springcad.kinds.rotary_flexure.spline_ribbon import spline_ribbon
 from springcad.kinds.rotary_flexure.zone_rows import bend_rows, gap_rows
 from springcad.optimise import dual
@@ -83,6 +83,7 @@ class ControlPointOutcome:
         largest_bend: largest half thickness x curvature.
         serpentine_factor: effective f_s reached.
         starts, feasible_starts: how many were tried, how many ended feasible.
+        variables: of the search, where it ended.
     """
 
     feasible: bool
@@ -95,34 +96,65 @@ class ControlPointOutcome:
     serpentine_factor: float
     starts: int
     feasible_starts: int
+    variables: Floats
 
 
 @dataclass(frozen=True)
 class _Line:
-    """The spline at the grid (N,), with gradients; ``weights`` integrate over x."""
+    """The spline at the grid (N,), with gradients; ``weights`` integrate over x.
+
+    ``taper`` is the law's lambda0 = sqrt(1 - x/lever), ``factor`` the correction of it.
+    """
 
     x: Dual
     y: Dual
     slope: Dual
     second: Dual
-    half_thickness: Dual
+    taper: Dual
+    factor: Floats
     weights: Dual
+
+    @property
+    def half_thickness(self) -> Dual:
+        return self.taper * self.factor
+
+    @property
+    def stretch(self) -> Dual:
+        """Arc length per x."""
+        return dual.power(1.0 + self.slope * self.slope, 0.5)
+
+    @property
+    def share(self) -> Floats:
+        """Arc length over that of the whole line."""
+        steps = np.hypot(np.diff(self.x.value), np.diff(self.y.value))
+        along = np.concatenate(([0.0], np.cumsum(steps)))
+        return np.asarray(along / along[-1])
 
 
 class ControlPointProblem:
-    """The optimisation problem. Calling it gives objective, constraints and exact gradients."""
+    """The optimisation problem. Calling it gives objective, constraints and exact gradients.
+
+    A correction of the law stays with the points of the grid at which it is ``near`` that shape.
+    """
 
     def __init__(
-        self, flexure: FlexureProblem, control_points: int = 2, weighting: Weighting = "gap"
+        self,
+        flexure: FlexureProblem,
+        control_points: int = 2,
+        weighting: Weighting = "gap",
+        near: Floats | None = None,
+        *,
+        freeze: bool = False,
     ) -> None:
+        self.nearest = near if freeze else None
         unit = flexure.root_half_thickness
         self.flexure = flexure
         self.m = control_points
         self.span = flexure.span / unit
-        self.tip = flexure.tip_half_thickness / unit
-        self.end = self.span * (1.0 - self.tip**2)
-        # The straight pad's share of integral lambda0^4 / lambda^3 ds, in closed form.
-        self.pad_energy = self.span * self.tip**3 / 3.0
+        self.lever = flexure.lever / unit
+        self.end = self.span - flexure.pad_length / unit
+        self.end_taper = float(np.sqrt(1.0 - self.end / self.lever))
+        self.pad_energy = pad_energy(flexure) / unit
         self.root_radius = flexure.root_radius / unit
         sharpness, nearness = WEIGHTS[weighting]
         self.sharpness = sharpness * CURVATURE_POINTS / unit**2 / self.span
@@ -130,6 +162,13 @@ class ControlPointProblem:
         self.positions, self.quadrature = _grid(control_points)
         self.bend_zones = zone_index(len(self.positions), ZONES)
         self.gap_zones = zone_index(len(self.positions[::GAP_STRIDE]), ZONES)
+        self.factor = np.ones(len(self.positions))
+        self.allowance = np.zeros(ZONES)
+        if near is not None:
+            share = self.line(near).share
+            self.factor = flexure.factor(share)
+            zones = share[::GAP_STRIDE][self.gap_zones]
+            self.allowance = flexure.allowance(zones.mean(axis=1)) / unit
 
     @property
     def bounds(self) -> tuple[Floats, Floats]:
@@ -160,6 +199,8 @@ class ControlPointProblem:
         gap = dual.variable(variables, -1)
         objective = self.sharpness * _total(line.weights * curvature * curvature)
         objective += self.nearness * dual.power(gap, -1.0)
+        if self.nearest is not None:
+            objective = dual.distance(variables, self.nearest, slice(0, -1))
         equalities = dual.stacked(
             [
                 self.serpentine_factor(line) - self.flexure.serpentine_factor,
@@ -168,7 +209,7 @@ class ControlPointProblem:
         )
         x, y, half = (a[::GAP_STRIDE] for a in (line.x, line.y, line.half_thickness))
         gaps = gap_rows(x, y, half, self.root_radius, self.flexure.count, self.gap_zones)
-        rows = [gaps - gap]
+        rows = [gaps - gap - self.allowance]
         if np.isfinite(self.flexure.bend_limit):
             bend = line.half_thickness * curvature
             rows.append(bend_rows(bend, self.flexure.bend_limit, self.bend_zones))
@@ -183,21 +224,20 @@ class ControlPointProblem:
         )
 
     def serpentine_factor(self, line: _Line) -> Dual:
-        """Effective f_s: integral of lambda0^4/lambda^3 ds over 2/3 L lambda_r."""
-        stretch = dual.power(1.0 + line.slope * line.slope, 0.5)
-        energy = _total(line.weights * line.half_thickness * stretch) + self.pad_energy
-        return energy * (1.5 / self.span)
+        """Effective f_s: integral of lambda0^4/lambda^3 ds over 2/3 lever lambda_r."""
+        stored = line.weights * line.taper * line.factor**-3.0
+        return (_total(stored * line.stretch) + self.pad_energy) * (1.5 / self.lever)
 
     def line(self, variables: Floats) -> _Line:
         """The spline at the grid."""
         x_knots, y_knots = self.knots(variables)
         # Between knots the grid is even in the law, which falls from 1 to the tip's thickness.
-        law_at_knots = dual.power(1.0 - x_knots * (1.0 / self.span), 0.5)
+        law_at_knots = dual.power(1.0 - x_knots * (1.0 / self.lever), 0.5)
         law, shares = (
-            law_at_knots.mapped(matrix[:, 1:-1]) + (matrix[:, 0] + self.tip * matrix[:, -1])
+            law_at_knots.mapped(matrix[:, 1:-1]) + (matrix[:, 0] + self.end_taper * matrix[:, -1])
             for matrix in (self.positions, self.quadrature)
         )
-        x = self.span * (1.0 - law * law)
+        x = self.lever * (1.0 - law * law)
         spline = _through(x_knots.value, y_knots.value, self.end)
         knots = np.vstack((x_knots.gradient, y_knots.gradient))
         along = spline(x.value)
@@ -206,7 +246,7 @@ class ControlPointProblem:
             Dual(along[k], along[k + 1][:, None] * x.gradient + moved[k].T @ knots)
             for k in range(3)
         )
-        return _Line(x, y, slope, second, law, 2.0 * self.span * (shares * law))
+        return _Line(x, y, slope, second, law, self.factor, 2.0 * self.lever * (shares * law))
 
 
 def optimise_control_points(
@@ -231,7 +271,22 @@ def optimise_control_points(
     solutions = solve_from_many(problem, points, problem.bounds, progress=progress)
     found = best(solutions, feasible_below=FEASIBLE_BELOW)
     nearest = min(solutions, key=lambda s: (round(s.violation, 6), s.start))
-    return _outcome(problem, found or nearest, solutions)
+    feasible = sum(s.violation <= FEASIBLE_BELOW for s in solutions)
+    return _outcome(problem, found or nearest, len(solutions), feasible)
+
+
+def reoptimise_control_points(
+    flexure: FlexureProblem, earlier: ControlPointOutcome, weighting: Weighting, *, freeze: bool
+) -> ControlPointOutcome:
+    """The optimum near that of a problem not much different.
+
+    With ``freeze`` it is the nearest shape that meets the constraints, whatever its cost.
+    """
+    problem = ControlPointProblem(
+        flexure, len(earlier.knots) - 2, weighting, earlier.variables, freeze=freeze
+    )
+    (solution,) = solve_from_many(problem, [earlier.variables], problem.bounds)
+    return _outcome(problem, solution, earlier.starts, earlier.feasible_starts)
 
 
 def start_point(problem: ControlPointProblem, seed: int, index: int) -> Floats:
@@ -242,8 +297,8 @@ def start_point(problem: ControlPointProblem, seed: int, index: int) -> Floats:
     variables[:m] = 2.0 * draw[:m] - 1.0
     variables[m:-1] = np.where(np.arange(m) % 2, 1.0, -1.0) * (0.2 + 0.8 * draw[m:])
     line = problem.line(variables)
-    width = line.weights.value * line.half_thickness.value
-    target = problem.flexure.serpentine_factor * problem.span / 1.5 - problem.pad_energy
+    width = line.weights.value * line.taper.value
+    target = problem.flexure.serpentine_factor * problem.lever / 1.5 - problem.pad_energy
 
     low, high = 0.0, 0.5 * problem.span
     for _ in range(40):
@@ -256,7 +311,7 @@ def start_point(problem: ControlPointProblem, seed: int, index: int) -> Floats:
 
 
 def _outcome(
-    problem: ControlPointProblem, shape: Solution, solutions: list[Solution]
+    problem: ControlPointProblem, shape: Solution, starts: int, feasible_starts: int
 ) -> ControlPointOutcome:
     flexure, unit = problem.flexure, problem.flexure.root_half_thickness
     # Snapped far below any tolerance: the last digits of another machine's algebra do not show.
@@ -277,8 +332,9 @@ def _outcome(
         smallest_gap=float(gaps.gap.min()),
         largest_bend=ribbon.largest_bend,
         serpentine_factor=float(problem.serpentine_factor(problem.line(shape.variables)).value[0]),
-        starts=len(solutions),
-        feasible_starts=sum(s.violation <= FEASIBLE_BELOW for s in solutions),
+        starts=starts,
+        feasible_starts=feasible_starts,
+        variables=shape.variables,
     )
 
 

@@ -18,7 +18,7 @@ minimum. Inside this module lengths are in units of the root half thickness.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -27,12 +27,12 @@ from scipy.interpolate import BSpline
 
 from springcad.geometry.neighbours import zone_index
 from springcad.geometry.panels import PanelGrid, panel_grid
-from springcad.kinds.rotary_flexure.problem import FlexureProblem, bend_thickening
+from springcad.kinds.rotary_flexure.problem import FlexureProblem, bend_thickening, pad_energy
 from springcad.kinds.rotary_flexure.zone_rows import bend_rows, gap_rows
 from springcad.optimise import dual
 from springcad.optimise.dual import Dual
 from springcad.optimise.random import uniform
-from springcad.optimise.sqp import Evaluation, best, solve_from_many
+from springcad.optimise.sqp import Evaluation, Solution, best, solve_from_many
 
 Floats = NDArray[np.float64]
 
@@ -102,31 +102,34 @@ class _Line:
 class _Section:
     """Half thickness lambda along the centre line, with gradients.
 
-    ``taper`` is the law's lambda0 = sqrt(1 - x/L) and ``thickening`` the factor on it in bends.
+    ``taper`` is the law's lambda0 = sqrt(1 - x/lever); the factors on it are ``factor``, that of
+    the correction (N,), and ``thickening``, that of the bends.
     """
 
     taper: Dual
+    factor: Floats
     thickening: Dual | None
 
     @property
     def half_thickness(self) -> Dual:
-        return self.taper if self.thickening is None else self.taper * self.thickening
+        corrected = self.taper * self.factor
+        return corrected if self.thickening is None else corrected * self.thickening
 
     @property
     def energy(self) -> Dual:
         """Energy per length, as lambda0^4 / lambda^3."""
-        return self.taper if self.thickening is None else self.taper * self._relief
+        return self._relieved(self.taper)
 
     @property
     def cross_compliance(self) -> Dual:
         """Cross compliance per length and y, as lambda0^2 / lambda^3."""
-        straight = dual.power(self.taper, -1.0)
-        return straight if self.thickening is None else straight * self._relief
+        return self._relieved(dual.power(self.taper, -1.0))
 
-    @property
-    def _relief(self) -> Dual:
-        assert self.thickening is not None
-        return dual.power(self.thickening, -3.0)
+    def _relieved(self, lawful: Dual) -> Dual:
+        corrected = lawful * self.factor**-3.0
+        if self.thickening is None:
+            return corrected
+        return corrected * dual.power(self.thickening, -3.0)
 
 
 class CurvatureProblem:
@@ -135,17 +138,20 @@ class CurvatureProblem:
     Calling it gives objective, constraints and exact gradients.
     """
 
-    def __init__(self, flexure: FlexureProblem) -> None:
+    def __init__(self, flexure: FlexureProblem, nearest: Floats | None = None) -> None:
+        self.nearest = nearest
         unit = flexure.root_half_thickness
         self.flexure = flexure
         self.span = flexure.span / unit
-        self.tip = flexure.tip_half_thickness / unit
+        self.lever = flexure.lever / unit
         self.pad = flexure.pad_length / unit
         self.root_radius = flexure.root_radius / unit
-        # The straight pad's share of integral lambda0^4 / lambda^3 ds, in closed form.
-        self.pad_energy = self.span * self.tip**3 / 3.0
-        self.energy = flexure.serpentine_factor * 2.0 / 3.0 * self.span
+        self.pad_energy = pad_energy(flexure) / unit
+        self.energy = flexure.serpentine_factor * 2.0 / 3.0 * self.lever
         self.zones = zone_index(POINTS, ZONES)
+        self.factor = flexure.factor(_basis().grid.nodes)
+        self.factor_at_points = flexure.factor(np.linspace(0.0, 1.0, POINTS))
+        self.allowance = flexure.allowance((np.arange(ZONES) + 0.5) / ZONES) / unit
 
     @property
     def bounds(self) -> tuple[Floats, Floats]:
@@ -160,18 +166,20 @@ class CurvatureProblem:
         """Values and gradients at ``variables`` (V,)."""
         line = self._line(variables)
         basis, gap = _basis(), dual.variable(variables, -1)
-        section = self._section(line.x, line.bend)
+        section = self._section(line.x, line.bend, self.factor)
         z = section.half_thickness * line.bend
         smooth = line.length * (z * z).mapped(basis.grid.weights[None, :])
         objective = SMOOTHNESS * smooth - gap
+        if self.nearest is not None:
+            objective = dual.distance(variables, self.nearest, slice(0, -1))
         equalities = self._equalities(line, section)
 
         x, y = line.x.mapped(basis.at_points), line.y.mapped(basis.at_points)
         bend = dual.linear(basis.curvature_at_points, variables, COEFFICIENT_RANGE)
-        half = self._section(x, bend).half_thickness
+        half = self._section(x, bend, self.factor_at_points).half_thickness
         gaps = gap_rows(x, y, half, self.root_radius, self.flexure.count, self.zones)
         bends = bend_rows(half * bend, BEND_MARGIN * self.flexure.bend_limit, self.zones)
-        inequalities = dual.stacked([gaps - gap, bends])
+        inequalities = dual.stacked([gaps - gap - self.allowance, bends])
         return Evaluation(
             float(objective.value[0]),
             objective.gradient[0],
@@ -195,15 +203,15 @@ class CurvatureProblem:
             y=length * dual.sin(angle).mapped(basis.grid.cumulative),
         )
 
-    def _section(self, x: Dual, bend: Dual) -> _Section:
-        tapered = 1.0 - x * (1.0 / self.span)
+    def _section(self, x: Dual, bend: Dual, factor: Floats) -> _Section:
+        tapered = 1.0 - x * (1.0 / self.lever)
         inside = tapered.value > SMALLEST_TAPER**2
         root = np.where(inside, np.sqrt(np.abs(tapered.value)), SMALLEST_TAPER)
         taper = tapered.through(root, np.where(inside, 0.5 / root, 0.0))
         if not self.flexure.local_stress:
-            return _Section(taper, None)
+            return _Section(taper, factor, None)
         law_bend = taper * bend
-        return _Section(taper, law_bend.through(*bend_thickening(law_bend.value)))
+        return _Section(taper, factor, law_bend.through(*bend_thickening(law_bend.value)))
 
     def _equalities(self, line: _Line, section: _Section) -> Dual:
         """Stored energy, cross compliance and closure onto the pad, each of order one."""
@@ -236,9 +244,10 @@ def start_point(problem: CurvatureProblem, seed: int, index: int) -> Floats:
         along = np.cos(amplitude * shape)
         length = (problem.span - problem.pad) / float(weights @ along)
         taper = np.sqrt(
-            np.maximum(1.0 - length * (basis.grid.cumulative @ along) / problem.span, 0)
+            np.maximum(1.0 - length * (basis.grid.cumulative @ along) / problem.lever, 0)
         )
-        return length, length * float(weights @ taper) + problem.pad_energy
+        stored = float(weights @ (taper * problem.factor**-3.0))
+        return length, length * stored + problem.pad_energy
 
     low, high = 0.0, 1.4
     for _ in range(30):
@@ -297,22 +306,48 @@ def optimise(
         problem.bounds,
         progress=progress,
     )
-    unit = flexure.root_half_thickness
     # A search may end with neighbours that overlap: all rows hold, with a negative gap.
     sound = [s for s in solutions if s.violation <= FEASIBLE and s.variables[-1] > 0.0]
     winner = best(sound, feasible_below=FEASIBLE)
     if winner is None:
         return None
-    gaps = [s.variables[-1] * unit for s in sound]
+    spread = np.sort([s.variables[-1] * flexure.root_half_thickness for s in sound])[::-1]
+    return replace(_optimum(flexure, winner), starts=starts, feasible=len(sound), spread=spread)
+
+
+def reoptimise(
+    flexure: FlexureProblem, earlier: CurvatureOptimum, *, freeze: bool
+) -> CurvatureOptimum | None:
+    """The optimum near that of a problem not much different; None where none is found.
+
+    With ``freeze`` it is the nearest shape that meets the constraints, whatever its gap.
+    """
+    unit = flexure.root_half_thickness
+    start = np.concatenate(
+        [
+            earlier.coefficients[:-1] * unit,
+            [earlier.length / flexure.span, earlier.root_angle, earlier.gap / unit],
+        ]
+    )
+    problem = CurvatureProblem(flexure, start if freeze else None)
+    (solution,) = solve_from_many(problem, [start], problem.bounds)
+    if solution.violation > FEASIBLE or solution.variables[-1] <= 0.0:
+        return None
+    near = _optimum(flexure, solution)
+    return replace(near, starts=earlier.starts, feasible=earlier.feasible, spread=earlier.spread)
+
+
+def _optimum(flexure: FlexureProblem, solution: Solution) -> CurvatureOptimum:
+    unit, variables = flexure.root_half_thickness, solution.variables
     # A shape and its mirror image are equally good; rounding must not choose between them.
-    mirror = 1.0 if winner.variables[0] >= 0.0 else -1.0
-    free = np.round(mirror * winner.variables[:COEFFICIENTS] / unit, 6)
+    mirror = 1.0 if variables[0] >= 0.0 else -1.0
+    free = np.round(mirror * variables[:COEFFICIENTS] / unit, 6)
     return CurvatureOptimum(
         coefficients=np.append(free, 0.0),
-        length=round(float(winner.variables[-3]) * flexure.span, 9),
-        root_angle=round(mirror * float(winner.variables[-2]), 9),
-        gap=float(winner.variables[-1]) * unit,
-        starts=starts,
-        feasible=len(gaps),
-        spread=np.sort(np.array(gaps))[::-1],
+        length=round(float(variables[-3]) * flexure.span, 9),
+        root_angle=round(mirror * float(variables[-2]), 9),
+        gap=float(variables[-1]) * unit,
+        starts=1,
+        feasible=1,
+        spread=variables[-1:] * unit,
     )

@@ -9,8 +9,8 @@ from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
 from springcad.kinds.rotary_flexure.checks import spring_checks
 from springcad.kinds.rotary_flexure.feasibility import Case, failures, require_feasible
-from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec
-from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
+from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
+from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.response import stroke
 from springcad.kinds.rotary_flexure.ring import Dowels, ring_profile
 from springcad.kinds.rotary_flexure.sizing import size_flexure
@@ -23,6 +23,7 @@ from springcad.kinds.rotary_flexure.trials import (
     TIP_THICKNESS,
     changes_that_work,
 )
+from springcad.kinds.target_law import Law
 from springcad.result import Check, Progress, Result
 from springcad.spec.source import Spec
 
@@ -42,7 +43,7 @@ def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
     Raises:
         InfeasibleError: no part can meet the spec; with changes that were tried and that work.
     """
-    case = case_of(spec)
+    case = case_of(spec).shifted
     feasibility = require_feasible(case)
     try:
         return _spring(spec, case, feasibility, progress)
@@ -54,7 +55,7 @@ def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
 
 def _passes(spec: RotaryFlexureSpec) -> bool:
     """Whether the spec can be designed and every check of the spring holds."""
-    case = case_of(spec)
+    case = case_of(spec).shifted
     if failures(case):
         return False
     try:
@@ -67,8 +68,8 @@ def _passes(spec: RotaryFlexureSpec) -> bool:
 def _spring(
     spec: RotaryFlexureSpec, case: Case, feasibility: tuple[Check, ...], progress: Progress
 ) -> Spring:
-    law = design_law(case.inputs)
-    sized = size_flexure(spec, case, law, progress)
+    law, target = design_law(case.inputs), target_of(spec)
+    sized = size_flexure(spec, case, law, target, progress)
     ribbon = sized.found.ribbon
     progress("making the ring")
     dowels = spec.mounting.dowels
@@ -83,7 +84,7 @@ def _spring(
     )
     _require_valid("flexure ring", ring)
     progress("making the camshaft")
-    inputs = camshaft_inputs(spec, case, law, ribbon)
+    inputs = camshaft_inputs(spec, case, target, ribbon)
     camshaft = design_camshaft(sized.beam, inputs)
     _require_valid("camshaft", camshaft.profile)
     progress("turning the spring through its stroke")
@@ -95,6 +96,7 @@ def _spring(
         spec=spec,
         case=case,
         law=law,
+        target=target,
         feasibility=feasibility,
         sized=sized,
         ring=ring,
@@ -106,18 +108,17 @@ def _spring(
 
 
 def camshaft_inputs(
-    spec: RotaryFlexureSpec, case: Case, law: DesignLaw, ribbon: Ribbon
+    spec: RotaryFlexureSpec, case: Case, target: Law, ribbon: Ribbon
 ) -> CamshaftInputs:
-    """The camshaft for the linear law k theta."""
-    stiffness = law.inputs.stiffness
+    """The camshaft for the torque law of the spec."""
     return CamshaftInputs(
-        root_radius=law.inputs.root_radius,
-        count=law.inputs.count,
+        root_radius=case.inputs.root_radius,
+        count=case.inputs.count,
         nose_station=ribbon.length,
         pad_start=float(ribbon.edges[-2]),
-        deflection=law.inputs.deflection,
-        torque=lambda angle: stiffness * angle,
-        energy=lambda angle: 0.5 * stiffness * angle**2,
+        deflection=target.deflection,
+        torque=target.torque,
+        energy=target.energy,
         poisson_ratio=spec.material.values.poisson_ratio.value,
         bore_radius=case.camshaft_bore_radius,
         backlash=spec.camshaft.backlash,

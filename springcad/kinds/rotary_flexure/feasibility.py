@@ -13,6 +13,7 @@ from typing import Literal
 from springcad.kinds.feasible import advised, require_all
 from springcad.kinds.knobs import Knob, remedies
 from springcad.kinds.rotary_flexure.law import DesignLaw, LawInputs, design_law
+from springcad.kinds.rotary_flexure.loaded_contact import FARTHEST, loaded_shift, stiffening_by
 from springcad.kinds.rotary_flexure.room import (
     deflection_bound,
     hub_shear_stress,
@@ -38,6 +39,24 @@ ROUND_OFF = 12
 """Decimals of a metre to which differences of typed lengths are rounded before a comparison."""
 
 
+SOFTENING = 0.9
+"""Least secant stiffness at full load over that at rest that is tried: to soften, the contact
+would have to move beyond the flexures' noses."""
+
+
+@dataclass(frozen=True)
+class LawDemand:
+    """What a torque law that is not linear asks of the ring.
+
+    Attributes:
+        torque: at full load, N m.
+        stiffness_at_rest: slope of the law at rest, N m/rad.
+    """
+
+    torque: float
+    stiffness_at_rest: float
+
+
 @dataclass(frozen=True)
 class Case:
     """One spring to be judged, SI: the law's inputs and what surrounds the flexures.
@@ -54,6 +73,7 @@ class Case:
         backlash: tangential play of a tip in its slot of the camshaft.
         min_slot: narrowest slot with a round bottom that the process cuts.
         least_gap: narrowest gap that the process cuts; ``min_gap`` may not be below it.
+        law: what a torque law asks for that is not linear.
     """
 
     inputs: LawInputs
@@ -67,6 +87,25 @@ class Case:
     backlash: float = 0.0
     min_slot: float = 0.0
     least_gap: float = 0.0
+    law: LawDemand | None = None
+
+    @property
+    def shifted(self) -> Case:
+        """The case with the contact where it is at full load."""
+        inputs = self.inputs
+        if self.law is None or self.law.stiffness_at_rest <= 0.0:
+            return self
+        shift = loaded_shift(
+            inputs.stiffness / self.law.stiffness_at_rest,
+            self.law.torque,
+            span=inputs.root_radius - inputs.contact_radius,
+            contact_radius=inputs.contact_radius,
+            count=inputs.count,
+            thickness=inputs.thickness,
+            design_stress=inputs.design_stress,
+            tip_half_thickness=inputs.tip_half_thickness,
+        )
+        return replace(self, inputs=replace(inputs, shift=shift))
 
 
 def resolved_style(law: DesignLaw, style: Style) -> Literal["straight", "serpentine"]:
@@ -95,14 +134,42 @@ def _checks(case: Case) -> tuple[Check, ...]:
             check("contact radius within the root radius", inputs.contact_radius, "<=",
                   inputs.root_radius, "m", source="the flexures span from one to the other"),
         )  # fmt: skip
-    law = design_law(inputs)
+    stiffens = _stiffening(case)
+    if any(claim.status == "fail" for claim in stiffens):
+        return stiffens
+    case = case.shifted
+    law = design_law(case.inputs)
     return (
+        *stiffens,
         *_material_and_process(case, law),
         *_serpentine_factor(case, law),
         *_density(case, law),
         *_neighbours(case, law),
         *_camshaft(case, law),
     )
+
+
+def _stiffening(case: Case) -> tuple[Check, ...]:
+    """A law may stiffen by as much as moving the contact along a pad of any length can give."""
+    if case.law is None:
+        return ()
+    inputs, name = case.inputs, "secant stiffness of the law at full load over that at rest"
+    source = "torque^2 / (2 energy) over the law's slope at rest"
+    span = inputs.root_radius - inputs.contact_radius
+    most = stiffening_by(FARTHEST * span, span, inputs.contact_radius, 1.0)
+    if case.law.stiffness_at_rest <= 0.0:
+        return (
+            check("stiffness of the law at rest", case.law.stiffness_at_rest, ">=",
+                  inputs.stiffness / most, "N*m/rad",
+                  source="a flexure has a stiffness of its own wherever it is touched"),
+        )  # fmt: skip
+    stiffening = inputs.stiffness / case.law.stiffness_at_rest
+    if math.isnan(case.shifted.inputs.shift):
+        return (
+            check(name, stiffening, "<=", most, "1",
+                  source=f"{source}; contact moved by half of the flexures' length"),
+        )  # fmt: skip
+    return (check(name, stiffening, ">=", SOFTENING, "1", source=source),)
 
 
 def _material_and_process(case: Case, law: DesignLaw) -> tuple[Check, ...]:
@@ -169,7 +236,7 @@ def straight_gap(law: DesignLaw) -> float:
     thick = law.straight_thickness_factor * law.root_half_thickness
     return float(
         neighbour_gap(
-            law.span, inputs.contact_radius, inputs.count, thick, inputs.tip_half_thickness
+            law.lever, inputs.loaded_radius, inputs.count, thick, inputs.tip_half_thickness
         )
     )
 
@@ -232,7 +299,9 @@ raising a stress is not a cure."""
 
 def case_remedies(case: Case) -> tuple[str, ...]:
     """Changes of the spec after which every closed-form check passes, each one recomputed."""
-    found = remedies(case, KNOBS, _doubts)
+    # A law says torque and deflection in ways of its own.
+    own = KNOBS if case.law is None else [k for k in KNOBS if not k.key.startswith("target.")]
+    found = remedies(case, own, _doubts)
     for style in ("straight", "auto"):
         if style != case.style and not failures(replace(case, style=style)):
             return (f"set flexures.style to {style}", *found)

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+import numpy as np
+
 from springcad.kinds.rotary_flexure.calibrated import calibrated
-from springcad.kinds.rotary_flexure.feasibility import Case
+from springcad.kinds.rotary_flexure.feasibility import Case, LawDemand
 from springcad.kinds.rotary_flexure.law import LawInputs
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.spec.common import CommonSpec
+
+if TYPE_CHECKING:
+    from springcad.kinds.target_law import Law
 
 
 def rotary_spec(model: CommonSpec) -> RotaryFlexureSpec:
@@ -20,11 +27,18 @@ def case_of(model: CommonSpec) -> Case:
     """The case that the closed forms judge, SI."""
     spec = rotary_spec(model)
     material, rules = spec.material.values, spec.process.rules
-    dowels = spec.mounting.dowels
+    dowels, target = spec.mounting.dowels, spec.target
+    law = None
+    if target.stiffness is not None:
+        stiffness, deflection = target.stiffness, target.deflection
+    else:
+        torque, energy, at_rest = full_load_of(spec)
+        stiffness, deflection = torque**2 / (2.0 * energy), 2.0 * energy / torque
+        law = LawDemand(torque, at_rest)
     return Case(
         inputs=LawInputs(
-            stiffness=spec.target.stiffness,
-            deflection=spec.target.deflection,
+            stiffness=stiffness,
+            deflection=deflection,
             root_radius=spec.envelope.root_radius,
             contact_radius=spec.envelope.contact_radius,
             count=spec.flexures.count,
@@ -43,4 +57,26 @@ def case_of(model: CommonSpec) -> Case:
         backlash=spec.camshaft.backlash,
         least_gap=rules.min_gap,
         min_slot=max(rules.min_gap, 2.0 * rules.min_inside_radius),
+        law=law,
     )
+
+
+def full_load_of(spec: RotaryFlexureSpec) -> tuple[float, float, float]:
+    """Torque and energy of the law at the design deflection, and its stiffness at rest."""
+    law, end = target_of(spec), np.array([spec.target.deflection])
+    torque, energy = float(law.torque(end)[0]), float(law.energy(end)[0])
+    return torque, energy, float(law.stiffness(np.zeros(1))[0])
+
+
+def target_of(spec: RotaryFlexureSpec) -> Law:
+    """The torque law of the spring; one of a constant stiffness where that is given."""
+    # What these load is not needed to check a spec of a constant stiffness.
+    from springcad.kinds.given_law import rise_of
+    from springcad.kinds.target_law import law_of, polynomial
+
+    target = spec.target
+    if target.law is not None:
+        return law_of(rise_of(target.law, target.deflection), target.deflection)
+    if target.stiffness is not None:
+        return law_of(polynomial((target.stiffness,), target.deflection), target.deflection)
+    raise ValueError("a valid spec has a stiffness or a law")

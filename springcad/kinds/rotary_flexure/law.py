@@ -187,7 +187,12 @@ def ring_mass(
 
 @dataclass(frozen=True)
 class LawInputs:
-    """What the law starts from, SI: k, theta (each way), R, r, n, t, E, sigma_d, lambda_t."""
+    """What the law starts from, SI: k, theta (each way), R, r, n, t, E, sigma_d, lambda_t.
+
+    Of a torque law that is not linear, k and theta are those of the linear one with the same torque
+    T and energy W at full load: k = T^2/(2 W), theta = 2 W/T. ``shift`` is then by how much the
+    contact has moved from r towards the root (see :mod:`loaded_contact`).
+    """
 
     stiffness: float
     deflection: float
@@ -198,6 +203,12 @@ class LawInputs:
     elastic_modulus: float
     design_stress: float
     tip_half_thickness: float
+    shift: float = 0.0
+
+    @property
+    def loaded_radius(self) -> float:
+        """Radius of the contact at full load, m."""
+        return self.contact_radius + self.shift
 
 
 @dataclass(frozen=True)
@@ -208,6 +219,7 @@ class DesignLaw:
         inputs: what it was solved for.
         torque, energy: k theta and k theta^2 / 2 of the whole spring.
         span: L = R - r.
+        lever: distance from the root to the contact at full load, L but for a law that stiffens.
         force: on one tip at the full deflection.
         root_half_thickness: lambda_r of Eq. 2.
         tip_pad_length: length at the tip with the constant half thickness lambda_t.
@@ -226,6 +238,7 @@ class DesignLaw:
     torque: float
     energy: float
     span: float
+    lever: float
     force: float
     root_half_thickness: float
     tip_pad_length: float
@@ -248,29 +261,31 @@ def design_law(inputs: LawInputs) -> DesignLaw:
     modulus, stress, tip = inputs.elastic_modulus, inputs.design_stress, inputs.tip_half_thickness
     if not 0.0 < contact < root:
         raise ValueError(f"contact radius {contact} m must lie between 0 and root radius {root} m")
-    span = root - contact
-    force = tip_force(k, theta, contact, n)
-    thick = float(tapered_half_thickness(force, span, t, stress))
+    loaded = inputs.loaded_radius
+    lever = root - loaded
+    force = tip_force(k, theta, loaded, n)
+    thick = float(tapered_half_thickness(force, lever, t, stress))
     ratio = tip / thick
     area = float(required_area(k, theta, n, t, stress, modulus))
-    nominal = float(straight_area(span, thick))
+    nominal = float(straight_area(lever, thick))
     factor = area / nominal
     return DesignLaw(
         inputs=inputs,
         torque=k * theta,
         energy=0.5 * k * theta**2,
-        span=span,
+        span=root - contact,
+        lever=lever,
         force=float(force),
         root_half_thickness=thick,
-        tip_pad_length=float(tip_pad_length(span, thick, tip)),
+        tip_pad_length=inputs.shift + float(tip_pad_length(lever, thick, tip)),
         required_area=area,
         nominal_area=nominal,
         flexure_area=area + nominal * ratio**3,
         serpentine_factor=factor,
         density_factor=n * area / float(annulus_area(root, contact)),
-        straight_deflection=float(straight_deflection(k, span, contact, n, t, stress, modulus)),
+        straight_deflection=float(straight_deflection(k, lever, loaded, n, t, stress, modulus)),
         straight_factor=float(straight_serpentine_factor(ratio)),
         straight_thickness_factor=float(straight_thickness_factor(factor, ratio)),
-        pinch_gap=float(neighbour_gap(span, contact, n, thick, tip)),
+        pinch_gap=float(neighbour_gap(lever, loaded, n, thick, tip)),
         tooth_width=float(tooth_width(contact, n, tip)),
     )

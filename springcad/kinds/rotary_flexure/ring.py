@@ -251,26 +251,27 @@ def _blend(ribbon: Ribbon, smallest: float, first: float, side: int) -> tuple[fl
     along = (tip - end) / np.hypot(*(tip - end))
     free = side * np.array([-along[1], along[0]])
 
-    def above(station: float) -> tuple[float, float]:
+    def above(stations: Floats) -> tuple[Floats, Floats]:
         """Height of the taper over the pad, and by how much an arc of unit radius comes down."""
-        (point,), (heading,) = edge_points(ribbon, np.array([station]), side)
-        drop = 1.0 - side * float(np.array([-heading[1], heading[0]]) @ free)
-        return float((point - end) @ free), drop
+        points, headings = edge_points(ribbon, stations, side)
+        turned = np.column_stack([-headings[:, 1], headings[:, 0]])
+        return (points - end) @ free, 1.0 - side * (turned @ free)
 
-    def left_over(station: float) -> float:
-        height, drop = above(station)
+    def left_over(stations: Floats) -> Floats:
+        height, drop = above(stations)
         return height - smallest * drop
 
     pad_start = float(ribbon.edges[-2])
     before = pad_start - np.geomspace(
         ROUND_OFF, min(0.5 * pad_start, 0.99 * (pad_start - first)), 60
     )
-    clear = np.array([left_over(float(s)) for s in before]) > 0.0
+    clear = left_over(before) > 0.0
     if clear[0] or not clear.any():
-        last = float(before[0] if clear[0] else before[-1])
-        height, drop = above(last)
-        return last, height / drop if drop > 0.0 else smallest
-    station = brentq(left_over, float(before[int(np.argmax(clear))]), float(before[0]))
+        last = before[[0 if clear[0] else -1]]
+        height, drop = (float(value[0]) for value in above(last))
+        return float(last[0]), height / drop if drop > 0.0 else smallest
+    low, high = float(before[int(np.argmax(clear))]), float(before[0])
+    station = brentq(lambda s: float(left_over(np.array([s]))[0]), low, high)
     return float(station), smallest
 
 

@@ -22,46 +22,43 @@ from springcad.kinds.rotary_flexure.problem import FlexureProblem, bend_thickeni
 Floats = NDArray[np.float64]
 
 
-def graded_towards_tip(start: float, pad_start: float, pad_length: float) -> list[float]:
-    """Panel boundaries between ``start`` and the pad on which sqrt(1 - x/L) is smooth.
+def graded_towards_tip(pad_start: float, remaining: float) -> list[float]:
+    """Panel boundaries from 0 to the pad between which sqrt(1 - x/lever) is smooth.
 
-    The law ends at the contact point, one pad length beyond ``pad_start``; each panel is as long
-    as its distance from there, so that polynomials follow the root to 1e-7.
+    The law ends at the contact point at full load, ``remaining`` beyond ``pad_start``; each panel
+    is as long as its distance from there, so that polynomials follow the root to 1e-7.
     """
-    edges, reach = [pad_start], pad_length
-    while pad_start - 2.0 * reach + pad_length > start + 0.25 * reach and reach < pad_start:
-        edges.append(pad_start - 2.0 * reach + pad_length)
+    edges, reach = [pad_start], remaining
+    while pad_start - 2.0 * reach + remaining > 0.25 * reach and reach < pad_start:
+        edges.append(pad_start - 2.0 * reach + remaining)
         reach *= 2.0
-    return [start, *sorted(edges)]
+    return [0.0, *sorted(edges)]
 
 
-def straight_ribbon(flexure: FlexureProblem, thickness_factor: float) -> Ribbon:
-    """A straight flexure with the law's half thickness times ``thickness_factor``."""
-    pad = (
-        flexure.span
-        * (flexure.tip_half_thickness / (thickness_factor * flexure.root_half_thickness)) ** 2
-    )
-    edges = np.array([*graded_towards_tip(0.0, flexure.span - pad, pad), flexure.span])
+def straight_ribbon(flexure: FlexureProblem) -> Ribbon:
+    """A straight flexure."""
+    start = flexure.span - flexure.pad_length
+    edges = np.array([*graded_towards_tip(start, flexure.lever - start), flexure.span])
     x = panel_grid(edges, ORDER).nodes
-    taper = np.sqrt(1.0 - x / flexure.span)
-    half = np.maximum(
-        thickness_factor * flexure.root_half_thickness * taper, flexure.tip_half_thickness
-    )
-    return Ribbon(edges, np.zeros_like(x), half, 0.0)
+    none = np.zeros_like(x)
+    half = half_thickness(flexure, x, none, x / start)
+    return Ribbon(edges, none, np.where(x > start, flexure.tip_half_thickness, half), 0.0)
 
 
 def curvature_ribbon(flexure: FlexureProblem, optimum: CurvatureOptimum) -> Ribbon:
     """The flexure of an optimised curvature spline and its pad."""
     spline = BSpline(curvature_knots() * optimum.length, optimum.coefficients, DEGREE)
     knots = np.unique(curvature_knots()) * optimum.length
-    tail = graded_towards_tip(0.0, optimum.length, flexure.pad_length)
+    if flexure.local_stress:  # What a bend is thickened by falls fast where it changes its side.
+        knots = np.sort(np.append(knots, 0.5 * (knots[1:] + knots[:-1])))
+    tail = graded_towards_tip(optimum.length, flexure.lever - flexure.span + flexure.pad_length)
     apart = [s for s in tail if np.min(np.abs(s - knots)) > 0.05 * knots[1]]
     edges = np.unique([*knots, *apart, optimum.length + flexure.pad_length])
     grid = panel_grid(edges, ORDER)
     curvature = np.where(grid.nodes < optimum.length, spline(grid.nodes), 0.0)
     angle = optimum.root_angle + grid.cumulative @ curvature
     x = grid.cumulative @ np.cos(angle)
-    half = law_half_thickness(flexure, x, curvature)
+    half = half_thickness(flexure, x, curvature, grid.nodes / optimum.length)
     on_pad = grid.nodes > optimum.length
     return Ribbon(
         edges, curvature, np.where(on_pad, flexure.tip_half_thickness, half), optimum.root_angle
@@ -70,7 +67,12 @@ def curvature_ribbon(flexure: FlexureProblem, optimum: CurvatureOptimum) -> Ribb
 
 def law_half_thickness(flexure: FlexureProblem, x: Floats, curvature: Floats) -> Floats:
     """Half thickness of the design law at ``x`` (004, Eq. 2), thickened in bends where asked."""
-    taper = flexure.root_half_thickness * np.sqrt(np.maximum(1.0 - x / flexure.span, 0.0))
-    if flexure.local_stress:
-        taper = taper * bend_thickening(taper * curvature)[0]
-    return np.asarray(np.maximum(taper, flexure.tip_half_thickness))
+    tapered = np.sqrt(np.maximum(1.0 - x / flexure.lever, 0.0))
+    taper = np.asarray(flexure.root_half_thickness * tapered)
+    return taper * bend_thickening(taper * curvature)[0] if flexure.local_stress else taper
+
+
+def half_thickness(flexure: FlexureProblem, x: Floats, curvature: Floats, share: Floats) -> Floats:
+    """The same, corrected, and nowhere below the tip's; ``share`` of the curved arc length."""
+    corrected = flexure.factor(np.minimum(share, 1.0)) * law_half_thickness(flexure, x, curvature)
+    return np.asarray(np.maximum(corrected, flexure.tip_half_thickness))

@@ -1,9 +1,10 @@
-"""The flexure sized for its stiffness with its real root: rim, fillets and inclination.
+"""The flexure sized for its stiffness and its stress as the spring it will be.
 
-The design law clamps the flexure at the root radius. Finite elements of the root say how far that
-is from the truth (``root_compliance``), and the shape is searched again for a serpentine factor
-that makes up for it, until the spring is just softer at rest than wanted; the camshaft, whose
-contact lies a little outside the contact radius, makes up for the rest exactly.
+The design law clamps the flexure at the root radius and knows small deflections only. Finite
+elements of the root say how far the first is from the truth (``root_compliance``), a beam with
+large deflections on the camshaft to be how far the second is. From the shape that the search finds
+for the law, thickness, pad and length are corrected (``correction``) until the stiffness at rest
+is the wanted one and the stress at full load is the allowed one.
 """
 
 from __future__ import annotations
@@ -12,36 +13,51 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import brentq
+from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
-from springcad.kinds.rotary_flexure.calibrated import root_coefficient
-from springcad.kinds.rotary_flexure.feasibility import Case
-from springcad.kinds.rotary_flexure.flexure_contact import flexure_beam
-from springcad.kinds.rotary_flexure.law import DesignLaw
-from springcad.kinds.rotary_flexure.ring import FILLET_STEP, largest_fillet
-from springcad.kinds.rotary_flexure.root_compliance import (
-    Mounting,
-    RootModel,
-    root_model,
-    root_unit,
+from springcad.kinds.rotary_flexure.correction import (
+    Loading,
+    corrected,
+    gap_allowance,
+    loading,
+    stations_of,
+    straight_level,
 )
-from springcad.kinds.rotary_flexure.search import Found, find_shape
-from springcad.kinds.rotary_flexure.sector_skeleton import SectorGeometry
+from springcad.kinds.rotary_flexure.feasibility import Case
+from springcad.kinds.rotary_flexure.full_load import demand_of, loads_of, stiffness_at_rest
+from springcad.kinds.rotary_flexure.law import DesignLaw
+from springcad.kinds.rotary_flexure.problem import FlexureProblem
+from springcad.kinds.rotary_flexure.ring import FILLET_STEP
+from springcad.kinds.rotary_flexure.root import Root, chosen_root, flexure_on, root_with
+from springcad.kinds.rotary_flexure.root_compliance import RootModel
+from springcad.kinds.rotary_flexure.search import Found, adapted, find_shape
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
-from springcad.mechanics.beam import PreparedBeam, contact_load
+from springcad.kinds.target_law import Law
+from springcad.mechanics.beam import BeamStates, PreparedBeam
 from springcad.result import Progress
 
-SOFTER = 0.997
-"""Stiffness at rest, over the wanted one, that the sizing aims at."""
-CLOSE = 0.0025
-"""It stops within this share of its aim."""
-PASSES = 6
-LARGEST_FILLET = 0.5
-"""Largest fillet radius over root thickness: beyond it the stress hardly falls any more."""
-BLEND_OVER_SMALLEST = 1.5
-"""Radius between taper and pad, over the smallest inside radius of the process."""
+Floats = NDArray[np.float64]
+
+SOFTER = 0.9995
+"""Stiffness at rest, over the wanted one, that the sizing aims at: a flexure that is too stiff
+would have to be touched beyond its nose."""
+CLOSE = 0.0004
+"""It stops within this share of its aim, so within 0.1 % of the wanted stiffness,"""
+EVEN = 0.004
+"""and within this share of the allowed stress, or after all passes: where the inner fibres count,
+the thickness cannot follow every change of side of a bend. The checks judge what is left."""
+PASSES = 16
+SHAPED = 3
+"""In the first passes the shape is optimised for its gap at full load; then it only follows the
+thickness, so that the passes settle."""
+FILLETED = 2
+"""In the first passes the fillet is chosen; then it stays."""
+ROOT_REACH = 1.5
+"""Length over root thickness along which a root is thickened for the sake of its fillets."""
+LEAST_RELIEF = 0.3
+"""The root is thickened until at least this share of the design stress is left there."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +70,12 @@ class Sized:
         blend: radius between taper and pad, m.
         root: what the root adds to a clamped beam.
         beam: the flexure as a beam on the root's spring.
-        correction: factor on the law's serpentine factor that the root has asked for.
         stiffness_at_rest: of the whole ring with contact at the contact radius, N m/rad.
+        root_relief: stress allowed at the root over the design stress, below 1 for the fillets'
+            sake.
+        evenness: largest deviation of the stress at full load from the allowed one before the pad,
+            as a share.
+        passes: corrections of the shape that were made.
     """
 
     found: Found
@@ -63,133 +83,133 @@ class Sized:
     blend: float
     root: RootModel
     beam: PreparedBeam
-    correction: float
     stiffness_at_rest: float
+    root_relief: float
+    evenness: float
+    passes: int
 
 
-def size_flexure(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: Progress) -> Sized:
-    """Shape, fillet and root of the flexures.
+def size_flexure(
+    spec: RotaryFlexureSpec, case: Case, law: DesignLaw, target: Law, progress: Progress
+) -> Sized:
+    """Shape, fillet and root of the flexures for the torque law ``target``.
 
     Raises:
-        InfeasibleError: no shape or no fillet fits, or the sizing does not settle.
+        InfeasibleError: no shape or no fillet fits, the gap is below the smallest wanted, or the
+            sizing does not settle.
     """
-    wanted = law.inputs.stiffness
-    correction, fillet = 1.0, None
-    for number in range(1, PASSES + 1):
-        progress(f"searching for the shape of the flexures, pass {number}")
-        found = find_shape(spec, case, law, progress, correction)
-        fillet = _root_fillet(spec, case, found.ribbon, fillet)
-        sized = _with_root(spec, case, law, found, fillet, correction)
-        if abs(sized.stiffness_at_rest / (SOFTER * wanted) - 1.0) <= CLOSE:
+    progress("searching for the shape of the flexures")
+    found = find_shape(spec, case, law, progress)
+    inputs = case.inputs
+    demand = demand_of(target, inputs.root_radius, inputs.contact_radius, inputs.count)
+    fillet, relief = None, 1.0
+    for number in range(PASSES):
+        progress(f"correcting the flexures for full load, pass {number + 1}")
+        if number < FILLETED or fillet is None:
+            root = chosen_root(spec, case, found.ribbon, fillet)
+        else:
+            root = root_with(spec, case, found.ribbon, fillet)
+        fillet = root.fillet
+        beam = flexure_on(spec, case, found.ribbon, root.model.compliance)
+        stiffness = stiffness_at_rest(found.ribbon, beam, demand)
+        share = stiffness / (SOFTER * demand.stiffness)
+        states = loads_of(found.ribbon, beam, demand, share)
+        relief = _relief(spec, root, states, relief)
+        load = _loading(spec, case, found.ribbon, states, relief, share)
+        level = 1.0 if found.line else straight_level(found.problem, found.ribbon, load)
+        sized = Sized(
+            found=found,
+            fillet=root.fillet,
+            blend=root.blend,
+            root=root.model,
+            beam=beam,
+            stiffness_at_rest=case.inputs.count * stiffness,
+            root_relief=relief,
+            evenness=load.unevenness(found.ribbon, level),
+            passes=number,
+        )
+        as_stiff = abs(share - 1.0) <= CLOSE
+        if as_stiff and (sized.evenness <= EVEN or number == PASSES - 1):
+            _require_room(spec, case, sized)
             return sized
-        correction = round(correction * sized.stiffness_at_rest / (SOFTER * wanted), 6)
-    raise InfeasibleError(
-        "stiffness at rest that the sizing arrives at", sized.stiffness_at_rest, wanted, "N*m/rad"
-    )
+        problem = corrected(found.problem, found.ribbon, load, level)
+        if found.line and number < SHAPED:
+            problem = _with_allowance(problem, found.ribbon, beam, states)
+        found = adapted(spec, found, problem, freeze=number >= SHAPED)
+    wanted = inputs.count * demand.stiffness
+    claim = "stiffness at rest that the sizing arrives at"
+    raise InfeasibleError(claim, sized.stiffness_at_rest, wanted, "N*m/rad")
 
 
-def _with_root(
+def _loading(
     spec: RotaryFlexureSpec,
     case: Case,
-    law: DesignLaw,
-    found: Found,
-    fillet: float,
-    correction: float,
-) -> Sized:
-    root = _calibrated_root(spec, case, found.ribbon, fillet)
-    beam = _beam(spec, case, found.ribbon, root.compliance)
-    # So small that the beam is linear; the arm of a tangential force is the contact radius.
-    probe = 1e-6 * law.force
-    energy = float(contact_load(beam, found.ribbon.length, probe, 1.0).energy[0])
-    compliance = 2.0 * energy / (probe * case.inputs.contact_radius) ** 2
-    return Sized(
-        found=found,
-        fillet=fillet,
-        blend=blend_radius(spec),
-        root=root,
-        beam=beam,
-        correction=correction,
-        stiffness_at_rest=case.inputs.count / compliance,
+    ribbon: Ribbon,
+    states: tuple[BeamStates, BeamStates],
+    relief: float,
+    share: float,
+) -> Loading:
+    stations = stations_of(ribbon, states)
+    return loading(
+        ribbon,
+        states,
+        case.inputs.root_radius - case.inputs.contact_radius,
+        share * case.inputs.design_stress * allowed_share(ribbon, stations, relief),
+        share,
+        local=spec.stress == "local",
     )
 
 
-def _root_fillet(
-    spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, earlier: float | None
+def allowed_share(ribbon: Ribbon, stations: Floats, relief: float) -> Floats:
+    """Allowed stress over the design stress along a flexure (K,): ``relief`` at the root."""
+    reach = ROOT_REACH * 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
+    share = np.minimum(stations / reach, 1.0)
+    return np.asarray(1.0 - (1.0 - relief) * (1.0 - share) ** 2 * (1.0 + 2.0 * share))
+
+
+def _relief(
+    spec: RotaryFlexureSpec,
+    root: Root,
+    states: tuple[BeamStates, BeamStates],
+    earlier: float,
 ) -> float:
-    """The fillet asked for, or the largest that leaves the root no stiffer than a clamp.
+    """Stress to be allowed at the root over the design stress, so that the fillets keep theirs.
 
-    A larger one would lower the stress in the fillet, but take bending out of the flexure, which
-    must then be longer: it costs gap. ``earlier`` is the choice of the first pass, kept if it fits.
-
-    Raises:
-        InfeasibleError: neighbouring fillets run into each other.
+    A thicker root has a larger stress factor, about as relief^-0.5, hence the square.
     """
-    asked = spec.flexures.root_fillet
-    smallest = spec.process.rules.min_inside_radius
-    root = 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
-    balanced = math.floor(LARGEST_FILLET * root / FILLET_STEP) * FILLET_STEP
-    wanted = max(balanced, smallest) if isinstance(asked, str) else asked
-    inputs = case.inputs
-    fits = largest_fillet(ribbon, inputs.root_radius, inputs.count, smallest, wanted)
-    if not isinstance(asked, str):
-        if fits < asked:
-            remedy = f"lower flexures.root_fillet to {1e3 * fits:g} mm, or set it to auto"
-            claim = "root fillet that fits between neighbours"
-            raise InfeasibleError(claim, fits, asked, "m", (remedy,))
-        return asked
-    if earlier is not None:
-        return min(earlier, fits)
-
-    def stiffening(radius: float) -> float:
-        return -_root_model(spec, case, ribbon, radius).compliance
-
-    if stiffening(fits) <= 0.0:
-        return fits
-    if stiffening(smallest) >= 0.0:
-        return smallest
-    balanced = float(brentq(stiffening, smallest, fits, xtol=FILLET_STEP))
-    return max(smallest, round(balanced / FILLET_STEP) * FILLET_STEP)
+    limit = spec.flexures.fillet_stress
+    if limit is None:
+        return 1.0
+    nominal = max(float(state.nominal_stress[-1, 0]) for state in states)
+    spare = limit / (root.model.fillet_stress_factor * nominal)
+    return min(1.0, max(LEAST_RELIEF, round(earlier * spare**2, 6)))
 
 
-def _calibrated_root(
-    spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float
-) -> RootModel:
-    """The root with what a bench test has found beyond the finite elements."""
-    root = _root_model(spec, case, ribbon, fillet)
-    thickness = 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
-    unit = root_unit(case.inputs.elastic_modulus, case.inputs.thickness, thickness)
-    return replace(root, compliance=root.compliance + root_coefficient(spec) * unit)
+def _with_allowance(
+    problem: FlexureProblem,
+    ribbon: Ribbon,
+    beam: PreparedBeam,
+    states: tuple[BeamStates, BeamStates],
+) -> FlexureProblem:
+    allowance = gap_allowance(ribbon, beam, states, problem.root_radius, problem.count)
+    return replace(problem, gap_allowance=allowance)
 
 
-def _root_model(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float) -> RootModel:
-    sector = SectorGeometry(
-        ribbon,
-        case.inputs.root_radius,
-        case.outer_radius,
-        case.inputs.count,
-        fillet,
-        blend_radius(spec),
-    )
-    return root_model(_beam(spec, case, ribbon, 0.0), sector, mounting_of(spec))
-
-
-def _beam(
-    spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, root_compliance: float
-) -> PreparedBeam:
-    return flexure_beam(
-        ribbon,
-        thickness=case.inputs.thickness,
-        elastic_modulus=case.inputs.elastic_modulus,
-        poisson_ratio=spec.material.values.poisson_ratio.value,
-        root_compliance=root_compliance,
-    )
-
-
-def mounting_of(spec: RotaryFlexureSpec) -> Mounting:
-    """How the housing holds the rim."""
-    return "bore" if spec.mounting.dowels is None else "dowels"
-
-
-def blend_radius(spec: RotaryFlexureSpec) -> float:
-    """Radius in the hollow corner between taper and pad, m."""
-    return BLEND_OVER_SMALLEST * spec.process.rules.min_inside_radius
+def _require_room(spec: RotaryFlexureSpec, case: Case, sized: Sized) -> None:
+    """Refuse a fillet or a gap that is smaller than asked for, with what is there."""
+    fillet = spec.flexures.root_fillet
+    if not isinstance(fillet, str) and sized.fillet < fillet:
+        remedy = "set flexures.root_fillet to auto"
+        if sized.found.gap >= case.min_gap:
+            fits = 1e3 * (sized.fillet - FILLET_STEP)
+            remedy = f"lower flexures.root_fillet to {fits:g} mm, or set it to auto"
+        claim = "root fillet that fits between neighbours"
+        raise InfeasibleError(claim, sized.fillet, fillet, "m", (remedy,))
+    gap, asked = sized.found.gap, spec.flexures.min_gap
+    if gap >= case.min_gap:
+        return
+    remedies: tuple[str, ...] = ()
+    if asked is not None and gap >= spec.process.rules.min_gap:
+        there = math.floor(1e5 * gap) / 1e2
+        remedies = (f"lower flexures.min_gap from {1e3 * asked:.4g} to {there:g} mm",)
+    raise InfeasibleError("gap between neighbouring flexures", gap, case.min_gap, "m", remedies)

@@ -12,6 +12,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
+from springcad.kinds.law_spec import LAW_RULES, Law, reaches
 from springcad.kinds.rotary_flexure.calibration_spec import (
     CalibrationEntry,
     one_friction,
@@ -24,12 +25,14 @@ from springcad.spec.common import (
     LengthOrZero,
     ProcessEntry,
     ProcessSpec,
+    Stress,
     TorsionalStiffness,
     angle,
     below_process,
     default,
 )
 from springcad.spec.material import MaterialSpec
+from springcad.spec.points import Points
 from springcad.spec.rules import Rule, Section, rule
 from springcad.spec.units import LENGTH, show
 
@@ -39,8 +42,10 @@ TEMPLATE = files(__package__).joinpath("template.yaml").read_text(encoding="utf-
 class Target(Section):
     """What the spring is to do."""
 
-    stiffness: TorsionalStiffness
-    """Torsional stiffness of the whole spring, in N*m/rad or N*m/deg."""
+    stiffness: TorsionalStiffness | None = None
+    """Constant torsional stiffness of the whole spring, in N*m/rad or N*m/deg; or a law."""
+    law: Law | None = None
+    """Torque of the whole spring over the angle, in place of a constant stiffness."""
     deflection: Annotated[float, angle("0.01 deg", "60 deg")]
     """Largest deflection in normal use, one way from rest, in deg."""
 
@@ -73,6 +78,8 @@ class Flexures(Section):
     """Largest angle between centre line and radius at the root, in deg; more stiffens the root."""
     root_fillet: AutoLength = default("auto")
     """Fillet radius at the roots, in mm; auto: the largest that fits and does not stiffen."""
+    fillet_stress: Stress | None = None
+    """Largest stress in the root fillets, in MPa; thicker roots keep it. No limit if not given."""
     min_gap: Length | None = None
     """Least gap between neighbouring flexures at rest, in mm; the process's if not given."""
 
@@ -125,6 +132,23 @@ class Optimiser(Section):
     """Number of control points; for form control-points only."""
     weighting: Literal["gap", "sharpness"] = "gap"
     """What the cost weighs more, the gap or the sharpness of bends; for control-points only."""
+
+
+@rule("target")
+def _stiffness_or_law(target: Target) -> str | None:
+    if (target.stiffness is None) != (target.law is None):
+        return None
+    return f"give one of stiffness, law; {'none' if target.law is None else 'both'} given"
+
+
+@rule("target.law.table", "target.deflection")
+def _torque_table_reaches(points: Points | None, deflection: float) -> str | None:
+    return reaches(points, deflection)
+
+
+@rule("target.law.stiffness.table", "target.deflection")
+def _stiffness_table_reaches(points: Points | None, deflection: float) -> str | None:
+    return reaches(points, deflection)
 
 
 @rule("envelope.root_radius", "envelope.outer_radius", "process")
@@ -207,6 +231,10 @@ class RotaryFlexureSpec(CommonSpec):
     """A rotary flexure spring (paper 004)."""
 
     RULES: ClassVar[tuple[Rule, ...]] = (
+        _stiffness_or_law,
+        *LAW_RULES,
+        _torque_table_reaches,
+        _stiffness_table_reaches,
         _rim,
         _flexure_length,
         _bore,

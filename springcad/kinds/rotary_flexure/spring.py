@@ -12,6 +12,7 @@ from springcad.kinds.rotary_flexure.response import Stroke
 from springcad.kinds.rotary_flexure.search import Found
 from springcad.kinds.rotary_flexure.sizing import Sized
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
+from springcad.kinds.target_law import Law
 from springcad.mechanics.beam import PreparedBeam
 from springcad.result import Check
 
@@ -21,7 +22,7 @@ class Spring:
     """Everything that was decided about one spring and what it does; SI.
 
     Attributes:
-        spec, case, law: what it was designed for.
+        spec, case, law, target: what it was designed for; the torque law is the target.
         feasibility: the closed-form checks that it passed before the search.
         sized: its flexures.
         ring: the flexure ring.
@@ -33,6 +34,7 @@ class Spring:
     spec: RotaryFlexureSpec
     case: Case
     law: DesignLaw
+    target: Law
     feasibility: tuple[Check, ...]
     sized: Sized
     ring: Profile

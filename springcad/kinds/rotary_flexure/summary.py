@@ -13,10 +13,10 @@ from springcad.kinds.rotary_flexure.calibrated import (
     calibration_assumptions,
     root_coefficient,
 )
-from springcad.kinds.rotary_flexure.checks import law_stress, root_fillet_stress, spring_checks
+from springcad.kinds.rotary_flexure.checks import root_fillet_stress, spring_checks
 from springcad.kinds.rotary_flexure.response import both_ways
 from springcad.kinds.rotary_flexure.room import deflection_bound
-from springcad.kinds.rotary_flexure.sizing import mounting_of
+from springcad.kinds.rotary_flexure.root import mounting_of
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.kinds.rotary_flexure.straight import straight_alternatives
 from springcad.kinds.strength import with_strength
@@ -84,8 +84,9 @@ def _design(spring: Spring) -> dict[str, Value]:
         "mounting": mounting_of(spring.spec),
         "mass_kg": spring.mass,
         "style": found.style,
+        "law": spring.target.words,
+        "loaded_radius_m": law.inputs.loaded_radius,
         "tip_force_N": law.force,
-        "law_stress_Pa": law_stress(spring),
         "flexure_span_m": law.span,
         "flexure_length_m": found.ribbon.length,
         "root_thickness_m": 2.0 * float(found.ribbon.at(np.zeros(1)).half_thickness[0]),
@@ -96,7 +97,6 @@ def _design(spring: Spring) -> dict[str, Value]:
         "root_compliance_rad_per_Nm": spring.sized.root.compliance,
         "calibrated_root_coefficient": root_coefficient(spring.spec),
         "root_fillet_stress_factor": spring.sized.root.fillet_stress_factor,
-        "serpentine_correction": spring.sized.correction,
         "stiffness_at_rest_Nm_per_rad": spring.sized.stiffness_at_rest,
         "deflection_bound_rad": _deflection_bound(spring),
         "flexure": {
@@ -176,10 +176,11 @@ def _outcomes(spring: Spring) -> tuple[Outcome, ...]:
         return value
 
     return (
-        Outcome("stiffness", number("stiffness_Nm_per_rad"), "N*m/rad", law.inputs.stiffness,
+        Outcome("stiffness", number("stiffness_Nm_per_rad"), "N*m/rad",
+                law.torque / spring.target.deflection,
                 "secant at the design deflection, mean of both directions"),
         Outcome("deflection, each way", number("max_deflection_rad"), "rad",
-                law.inputs.deflection),
+                spring.target.deflection),
         Outcome("torque at the design deflection", number("max_torque_Nm"), "N*m", law.torque),
         Outcome("energy", number("energy_J"), "J", law.energy),
         Outcome("mass of the ring", spring.mass, "kg"),
@@ -244,7 +245,8 @@ def _radius(label: str, value: float, degrees: float) -> Dimension:
 def _plots(spring: Spring) -> tuple[Plot, ...]:
     forward, backward = spring.strokes
     angle = both_ways(forward.angle, -backward.angle)
-    stiffness, allowed = spring.law.inputs.stiffness, spring.law.inputs.design_stress
+    allowed = spring.law.inputs.design_stress
+    wanted = np.sign(angle) * spring.target.torque(np.abs(angle))
     along = [
         Series(
             f"{kind}, {way}",
@@ -259,7 +261,7 @@ def _plots(spring: Spring) -> tuple[Plot, ...]:
         Plot("Torque", "angle", "rad", "torque", "N*m",
              (Series("spring on its camshaft", angle,
                      both_ways(forward.torque, -backward.torque)),
-              Series("target", angle, stiffness * angle, dashed=True),
+              Series("target", angle, wanted, dashed=True),
               *_friction_series(spring))),
         Plot("Stress along a flexure at the design deflection", "distance from the root", "m",
              "stress", "Pa", tuple(along), limit=allowed),
@@ -308,8 +310,8 @@ def _assumptions(spring: Spring) -> tuple[str, ...]:
             if play > 0.0
             else ()
         ),
-        "The design law is that of small deflections; stiffness, stress and gaps of the finished "
-        "spring are those of a beam with large deflections, shear and axial force.",
+        "Stiffness, stress and gaps are those of a beam with large deflections, shear and axial "
+        "force; flexures are sized by it.",
         f"The stress compared with material.design_stress is the {spec.stress} one; the root "
         "fillets are reported apart.",
         "Edge quality of the cut is not checked.",
@@ -333,6 +335,8 @@ def _friction_assumption(coefficient: float) -> str:
 
 
 def _advice(spring: Spring) -> Iterator[str]:
+    if spring.spec.target.law is not None:
+        return
     bound = _deflection_bound(spring)
     yield (
         f"The design deflection is {spring.law.inputs.deflection / bound:.0%} of "

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
-from springcad.kinds.roller_cam.interpolation import positive_curve, rising_curve
+from springcad.kinds.interpolation import positive_curve, rising_curve
 from springcad.mechanics.torque_law import TorqueLaw
 
 Floats = NDArray[np.float64]
