@@ -27,10 +27,13 @@ def test_the_table_ranks_and_says_what_the_stress_is(run_springcad: Run) -> None
     assert max(map(len, lines)) <= 100
 
 
-def test_json_for_a_life_holds_sources_and_what_is_unknown(run_springcad: Run) -> None:
-    done = run_springcad("materials", "rank", "--life", "1e5", "--json")
-    assert (done.returncode, done.stderr) == (0, "")
-    data = json.loads(done.stdout)
+def test_json_for_a_life_holds_sources_and_what_is_unknown(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert run(["materials", "rank", "--life", "1e5", "--json"]) == 0
+    written = capsys.readouterr()
+    assert written.err == ""
+    data = json.loads(written.out)
     assert (data["for"], data["life_cycles"]) == ("leaf", 1e5)
     steel = next(entry for entry in data["ranking"] if entry["name"] == "aisi-420")
     assert steel["stress_Pa"]["value"] == pytest.approx(912.0e6, abs=0.05e6)
@@ -41,16 +44,20 @@ def test_json_for_a_life_holds_sources_and_what_is_unknown(run_springcad: Run) -
     assert {"pom-c", "pet", "pei", "cube2", "al-7075-t6"} <= set(data["not_ranked"])
 
 
-def test_only_the_named_materials_and_a_chart(run_springcad: Run, tmp_path: Path) -> None:
-    arguments = ("materials", "rank", "--material", "pet", "--material", "51crv4")
-    done = run_springcad(*arguments, "--json", "--chart", "charts/two.svg")
-    assert (done.returncode, done.stderr) == (0, "")
-    assert [entry["name"] for entry in json.loads(done.stdout)["ranking"]] == ["pet", "51crv4"]
-    chart = (tmp_path / "charts/two.svg").read_bytes()
+def test_only_the_named_materials_and_a_chart(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "charts/two.svg"
+    arguments = ["materials", "rank", "--material", "pet", "--material", "51crv4", "--json"]
+    assert run([*arguments, "--chart", str(path)]) == 0
+    written = capsys.readouterr()
+    assert written.err == ""
+    assert [entry["name"] for entry in json.loads(written.out)["ranking"]] == ["pet", "51crv4"]
+    chart = path.read_bytes()
     assert chart.startswith(b"<svg xmlns=")
-    assert run_springcad(*arguments, "--chart", "charts/two.svg").returncode == 0
-    assert (tmp_path / "charts/two.svg").read_bytes() == chart
-    assert [path.name for path in (tmp_path / "charts").iterdir()] == ["two.svg"]
+    assert run([*arguments, "--chart", str(path)]) == 0
+    assert path.read_bytes() == chart
+    assert [file.name for file in path.parent.iterdir()] == ["two.svg"]
 
 
 @pytest.mark.parametrize(

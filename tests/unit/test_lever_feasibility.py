@@ -20,6 +20,7 @@ from springcad.kinds.lever_arm.feasibility import (
 )
 from springcad.kinds.lever_arm.inputs import case_of, fittings_of, lever_spec
 from springcad.kinds.lever_arm.sizing import size_leaf
+from springcad.kinds.lever_arm.straight_part import leaf_profile
 from springcad.spec.source import read_spec
 
 SPECS = Path(__file__).parents[2] / "specs"
@@ -93,18 +94,47 @@ INFEASIBLE = {
     "pivot overloaded": (
         "parabolic", ["mechanism.max_pivot_force=5 kN"], "force on the pivot, at its low end",
     ),
+    "the web near the pin too stiff": (
+        "parabolic", ["leaf.length=21 mm", "target.spring_deflection=2 mm"],
+        "thickness at the clamp, closed form",
+    ),
+    "one layer too stiff": (
+        "parabolic", ["leaf.sheet_thickness=10 mm", "target.spring_stiffness=0.5 N/mm"],
+        "thickness at the clamp for the wanted stiffness",
+    ),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize(("name", "overrides", "claim"), INFEASIBLE.values(), ids=INFEASIBLE.keys())
 def test_the_first_broken_condition_and_cures_that_work_as_printed(name, overrides, claim) -> None:
+    """The two smallest changes on the nonlinear beam too, not only in the closed forms."""
     error = refusal(name, *overrides)
     assert error.claim.startswith(claim)
     assert np.isfinite([error.value, error.limit]).all()
     assert error.remedies
     high = "38 mm" if name == "parabolic" else "35 mm"
-    for remedy in error.remedies:
-        require_feasible(case(name, *overrides, *cured(remedy, high)))
+    for place, remedy in enumerate(error.remedies):
+        changes = (*overrides, *cured(remedy, high))
+        require_feasible(case(name, *changes))
+        assert place > 1 or size(name, *changes).leaf.thickness > 0.0
+
+
+def test_keys_that_may_be_left_out_where_no_number_within_reach_does() -> None:
+    error = refusal("parabolic", "leaf.layers=3", "leaf.sheet_thickness=0.5 mm")
+    assert error.remedies == ("take leaf.layers out of the spec",)
+
+
+def test_an_omega_leaf_is_promised_nothing() -> None:
+    """The bound that no spring can pass refuses; what searches reach warns."""
+    little = "leaf={shape: omega, sheet_thickness: 3 mm, layers: 2}"
+    claims = {claim.name: claim.status for claim in feasibility_checks(case("steel", little))}
+    assert claims["stiffness of a full enclosure, upper bound"] == "pass"
+    assert claims["stiffness that omega leaves reach, estimate"] == "pass"
+    warned = feasibility_checks(case("steel", little, "target.spring_stiffness=200 N/mm"))
+    assert [claim.status for claim in warned] == ["pass", "pass", "warn"]
+    error = refusal("steel", little, "target.spring_stiffness=2000 N/mm")
+    assert error.remedies
+    assert all(remedy.endswith("(the search then decides)") for remedy in error.remedies)
 
 
 def test_a_spring_that_the_crank_cannot_reach_is_a_warning() -> None:
@@ -131,9 +161,37 @@ def test_height_that_is_missing_is_told() -> None:
     assert size("parabolic", "envelope.height=33 mm").layers == 11
 
 
+def test_layers_and_height_that_are_missing_are_told_together() -> None:
+    with pytest.raises(InfeasibleError, match="10 layers") as refused:
+        size("parabolic", "leaf.layers=10", "envelope.height=30 mm")
+    (remedy,) = refused.value.remedies
+    assert remedy == "raise leaf.layers from 10 to 11 and raise envelope.height from 30 to 33 mm"
+
+
+def test_a_sheet_that_the_closed_form_lets_pass_is_judged_on_the_beam() -> None:
+    given = ("leaf={shape: triangular, length: 80 mm, sheet_thickness: 3 mm}",)
+    with pytest.raises(InfeasibleError, match="stress of a sheet of 3 mm") as refused:
+        size("parabolic", *given)
+    (thinner,) = [remedy for remedy in refused.value.remedies if "sheet_thickness" in remedy]
+    assert size("parabolic", *given, *cured(thinner, "38 mm")).leaf.thickness > 2.5e-3
+
+
 def test_a_leaf_without_room_for_its_eye_is_refused() -> None:
-    with pytest.raises(InfeasibleError, match="too short"):
-        size("triangular", "leaf.length=16 mm", "connection.eye_wall=9 mm", "leaf.width=3 mm")
+    given = ("leaf.length=16 mm", "connection.eye_wall=9 mm", "leaf.width=3 mm")
+    with pytest.raises(InfeasibleError, match="too short") as refused:
+        size("triangular", *given)
+    (remedy,) = refused.value.remedies
+    assert size("triangular", *given, *cured(remedy, "35 mm")).leaf.length < 25e-3
+
+
+def test_a_block_without_room_for_its_fillets_is_refused() -> None:
+    low = ("mount={holes: 0, height: 5 mm}",)
+    with pytest.raises(InfeasibleError, match="height of the block") as refused:
+        leaf_profile(size("parabolic", *low).leaf)
+    first, second = refused.value.remedies
+    assert second == "take mount.height out of the spec"
+    (change,) = cured(first, "38 mm")
+    leaf_profile(size("parabolic", *low, change).leaf)
 
 
 EXTREME = [

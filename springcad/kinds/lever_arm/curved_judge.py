@@ -2,29 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.kinds.judging import OUTLINE_TOLERANCE, distance_from, snapped
+from springcad.kinds.judging import snapped
+from springcad.kinds.lever_arm.comparing import (
+    STRESS_TOLERANCE,
+    all_snapped,
+    compared_forces,
+    lies_on_drawing,
+)
 from springcad.kinds.lever_arm.leaf_mesh import (
     LeafElements,
     LeafJudgement,
     judge_leaf_at,
     leaf_elements,
 )
-from springcad.kinds.lever_arm.written_leaf import written_outline
 from springcad.kinds.lever_arm.written_omega import written_omega
-from springcad.result import Check, Comparison, Judgement, Progress, check
+from springcad.result import Check, Comparison, Judgement, Progress
 from springcad.written import WrittenDesign
 
 Floats = NDArray[np.float64]
 
 SHARES = (-1.0, 0.5, 1.0)
 """Deflections at which the models are compared, over the largest."""
-FORCE_TOLERANCE = 0.02
-STRESS_TOLERANCE = 0.05
 CLEAR = (0.1, 0.9)
 """Where stresses are compared, over the half's length from the hub: both ends are held rigidly."""
 METHOD = "finite elements of both halves of the leaf"
@@ -52,7 +55,12 @@ def judge_omega(written: WrittenDesign, progress: Progress) -> Judgement:
     mesh = elements.model.solid.mesh
     return Judgement(
         method=METHOD,
-        comparisons=(_forces(written, judged), *_stresses(written, judged[-1])),
+        comparisons=(
+            compared_forces(
+                written, [at.displacement for at in judged], [at.force for at in judged]
+            ),
+            *_stresses(written, judged[-1]),
+        ),
         checks=(_mesh_lies_on_drawing(written, elements, leaf.length),),
         assumptions=ASSUMPTIONS,
         figures={
@@ -60,26 +68,6 @@ def judge_omega(written: WrittenDesign, progress: Progress) -> Judgement:
             "unknowns": mesh.unknowns,
             "hub_rotation_rad": snapped(judged[-1].rotation),
         },
-    )
-
-
-def _forces(written: WrittenDesign, judged: Sequence[LeafJudgement]) -> Comparison:
-    places = np.array([at.displacement for at in judged])
-    count = written.number("design.count")
-    reported = np.interp(
-        places, written.array("response.deflection_m"), written.array("response.force_N")
-    )
-    return Comparison(
-        name="force of the spring",
-        unit="N",
-        place="deflection",
-        place_unit="m",
-        places=places,
-        designed=_snapped(reported),
-        judged=_snapped(np.array([count * at.force for at in judged])),
-        tolerance=FORCE_TOLERANCE,
-        relative=True,
-        source="nonlinear beam; finite elements",
     )
 
 
@@ -101,17 +89,13 @@ def _stresses(written: WrittenDesign, judged: LeafJudgement) -> Iterator[Compari
             place="distance from the hub",
             place_unit="m",
             places=place[[worst]],
-            designed=_snapped(designed[[worst]]),
-            judged=_snapped(np.array([np.max(found[clear])])),
+            designed=all_snapped(designed[[worst]]),
+            judged=all_snapped(np.array([np.max(found[clear])])),
             tolerance=STRESS_TOLERANCE,
             relative=True,
             source="beam with the curved-beam factor; finite elements, larger of both sides, each "
             "at its own worst place",
         )
-
-
-def _snapped(values: Floats) -> Floats:
-    return np.array([snapped(float(value)) for value in values])
 
 
 def _mesh_lies_on_drawing(written: WrittenDesign, elements: LeafElements, length: float) -> Check:
@@ -120,12 +104,4 @@ def _mesh_lies_on_drawing(written: WrittenDesign, elements: LeafElements, length
     clear = (elements.stations > 0.15 * length) & (elements.stations < 0.8 * length)
     rows = [mesh.node_sets["right"], mesh.node_sets["left"][::-1]]
     nodes = np.concatenate([mesh.nodes[row[clear]] for row in rows]) - elements.middle
-    return check(
-        "second opinion: its leaf against the drawing",
-        snapped(distance_from(written_outline(written), nodes)),
-        "<=",
-        OUTLINE_TOLERANCE,
-        "m",
-        source="largest distance of the mesh's sides from the contour of the drawing",
-        remedy="the drawing is not of the leaf in the report: design it again",
-    )
+    return lies_on_drawing(written, nodes)

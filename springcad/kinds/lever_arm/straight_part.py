@@ -41,9 +41,11 @@ def leaf_profile(leaf: StraightLeaf) -> Profile:
     height, back = block_height(leaf), leaf.length + leaf.fittings.block_length
     top = leaf.plan.root_center[1]
     if 0.5 * height <= top:
+        enough = math.ceil(2e3 * (top + leaf.fittings.root_fillet))
         raise InfeasibleError(
             "height of the block, for leaf and fillets", height, 2.0 * top, "m",
-            ("raise mount.height, or take it out of the spec",),
+            (f"raise mount.height from {1e3 * height:.4g} to {enough} mm",
+             "take mount.height out of the spec"),
         )  # fmt: skip
     half, face = 0.5 * height, leaf.length
     block = (

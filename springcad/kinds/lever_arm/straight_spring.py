@@ -204,7 +204,11 @@ def _assumptions(sized: SizedLeaf) -> Iterator[str]:
             "through its eye. Anticlastic bending (plate action of a wide leaf) is not counted: at "
             "most it stiffens by 1/(1 - ν²)."
         )
-    yield ("The stress knows no notch: fillet, hole and edge quality are not checked.")
+    if sized.leaf.bends_in_sheet:
+        yield ("The design stress knows no notch; the second opinion tells that of the fillets at "
+               "the clamp. Eye and edge quality are not checked.")  # fmt: skip
+    else:
+        yield ("The stress knows no notch: fillet, hole and edge quality are not checked.")
 
 
 def _advice(case: Case, sized: SizedLeaf) -> Iterator[str]:

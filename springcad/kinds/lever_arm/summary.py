@@ -81,6 +81,7 @@ def _design(made: MadeJoint) -> dict[str, Value]:
         "width_m": spring.width,
         "elastic_modulus_Pa": case.elastic_modulus,
         "poisson_ratio": case.poisson_ratio,
+        "yield_strength_Pa": case.yield_strength,
         "spring_deflection_m": case.deflection,
         "mass_kg": spring.mass,
         "lever_length_m": case.lever.length,
