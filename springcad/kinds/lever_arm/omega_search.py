@@ -123,7 +123,8 @@ def _polished(case: OmegaCase, linear: list[Solution], progress: Callable[[str],
     if not best:
         closest = min(found, key=lambda at: at.violation)
         claim = "largest violation of a limit, as a share of it, on the nonlinear beam"
-        raise InfeasibleError(claim, closest.violation, FEASIBLE, "1")
+        hint = "raise envelope.radius, lower target.spring_deflection, or search with more starts"
+        raise InfeasibleError(claim, closest.violation, FEASIBLE, "1", (f"{hint} (not tried)",))
     return best[0]
 
 
@@ -135,7 +136,10 @@ def _cleared(case: OmegaCase, at: Solution) -> Solution:
     asked = case.min_gap
     for _ in range(CLEARINGS):
         leaf = leaf_of(case, at.variables)
-        states = omega_response(leaf, case, 1.0, case.stroke * np.array([-1.0, 0.0, 1.0]))
+        try:
+            states = omega_response(leaf, case, 1.0, case.stroke * np.array([-1.0, 0.0, 1.0]))
+        except ArithmeticError:  # a leaf that has no equilibrium at the stroke is none
+            return replace(at, violation=np.inf)
         gaps = np.concatenate([states.self_gap, states.wall_gap, states.corridor_gap])
         short = case.min_gap - float(np.min(gaps))
         if short <= 0.0:
