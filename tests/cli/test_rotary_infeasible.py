@@ -21,7 +21,7 @@ from springcad.kinds.rotary_flexure.straight import straight_alternatives
 Run = Callable[..., "subprocess.CompletedProcess[str]"]
 NUMBER = r"[0-9.]+(?:e[+-]?[0-9]+)?"
 TURN = re.compile(rf"(?:raise|lower) ([a-z_.]+) (?:from {NUMBER} )?to [≥≤]? ?({NUMBER} ?[^ ,]*)")
-STYLE = re.compile(r"set (flexures\.style) to ([a-z]+)")
+STYLE = re.compile(r"set ([a-z_.]+) to ([a-z]+)")
 
 
 def overrides_of(remedy: str) -> list[str]:
@@ -145,9 +145,7 @@ def test_straight_alternatives_of_s2_can_be_designed_as_promised(
         assert run.returncode == 0, run.stderr
         report = json.loads(run.stdout)
         design, response = report["design"], report["response"]
-        # The real root changes the thickness a little: the advice is that of a clamped flexure.
-        assert design["law_stress_Pa"] == pytest.approx(alternative.stress, rel=0.02)
-        # Bending at large deflections and the axial force come on top.
+        # The advice is that of a clamped flexure and of small deflections.
         assert response["peak_nominal_stress_Pa"] == pytest.approx(alternative.stress, rel=0.02)
         assert response["peak_local_stress_Pa"] == pytest.approx(
             response["peak_nominal_stress_Pa"], rel=1e-9
@@ -157,7 +155,7 @@ def test_straight_alternatives_of_s2_can_be_designed_as_promised(
 
 
 def test_warnings_are_0_or_strictly_5_and_a_failed_check_is_5(run_springcad: Run) -> None:
-    """S2 warns of its stress at large deflections; 52 flexures leave S1 too thin a tooth."""
+    """S2 warns of the stress in its fillets; 52 flexures leave S1 too thin a tooth."""
     s2 = run_springcad("design", SPECS / "S2.yaml", "--no-verify")
     assert (s2.returncode, "WARN" in s2.stdout, "FAIL" in s2.stdout) == (0, True, False)
     assert run_springcad("design", SPECS / "S2.yaml", "--strict", "--no-verify").returncode == 5

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import LSQUnivariateSpline
 
+from springcad.errors import InfeasibleError
 from springcad.geometry.neighbours import neighbour_gaps, zone_index, zone_minimum
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.problem import Correction, FlexureProblem
@@ -103,13 +104,15 @@ def stations_of(ribbon: Ribbon, states: Sequence[BeamStates]) -> Floats:
 def straight_level(problem: FlexureProblem, ribbon: Ribbon, load: Loading) -> float:
     """Stress ratio that a straight flexure has everywhere when it is as stiff as wanted.
 
-    With the half thickness times sqrt(ratio/level) everywhere its compliance is level^1.5 times the
-    integral of (lever - x)^2/(lambda^3 ratio^1.5).
+    With the half thickness times sqrt(ratio/level) before the pad its compliance is level^1.5 times
+    the integral of (lever - x)^2/(lambda^3 ratio^1.5), and that of the pad, which stays.
     """
     ratio = np.interp(ribbon.grid.nodes, load.stations, load.ratio)
-    now = _compliance(problem, ribbon, load.lever, np.ones_like(ratio))
-    evened = _compliance(problem, ribbon, load.lever, ratio**-1.5)
-    return float((now * load.stiffness_ratio / evened) ** (2.0 / 3.0))
+    now, evened, pad = (
+        _compliance(problem, ribbon, load.lever, weight)
+        for weight in (np.ones_like(ratio), ratio**-1.5, np.zeros_like(ratio))
+    )
+    return float(((now * load.stiffness_ratio - pad) / (evened - pad)) ** (2.0 / 3.0))
 
 
 def corrected(
@@ -173,8 +176,19 @@ def _reaches(stations: Floats, half_thickness: Floats, tip: float) -> float:
     """Station beyond which the wanted half thickness is below that of the tip.
 
     Its square is linear there.
+
+    Raises:
+        InfeasibleError: it is so from the root on.
     """
-    last = int(np.flatnonzero(half_thickness > tip)[-1])
+    thick = np.flatnonzero(half_thickness > tip)
+    if not len(thick):
+        claim = "greatest thickness that stress and stiffness at full load ask for"
+        there = 2.0 * float(half_thickness.max())
+        remedy = "lower flexures.tip_thickness (not tried)"
+        raise InfeasibleError(claim, there, 2.0 * tip, "m", (remedy,))
+    last = int(thick[-1])
+    if last == len(stations) - 1:
+        return float(stations[-1])
     inner, outer = half_thickness[last] ** 2, half_thickness[last + 1] ** 2
     way = (inner - tip**2) / (inner - outer)
     return float(stations[last] + way * (stations[last + 1] - stations[last]))

@@ -61,15 +61,16 @@ def loads_of(
     """One flexure at the angles of the demand, pushed in direction +1 and in direction −1.
 
     A flexure that is not sized yet takes a ``share`` of torque and energy, its stiffness over the
-    wanted one. The contact may lie up to a pad's length before the pad: it may ask for more pad
-    than it has.
+    wanted one. The contact may lie up to a pad's length before the pad, but not beyond half of
+    the way to the root: it may ask for more pad than it has.
 
     Raises:
         InfeasibleError: no contact gives the torque while the flexure holds the energy.
     """
     pad = ribbon.length - float(ribbon.edges[-2])
     nose = NOSE_ALLOWANCE * float(ribbon.half_thickness[-1])
-    limits = (ribbon.length - 2.0 * pad, ribbon.length + nose)
+    before = ribbon.length - pad
+    limits = (max(before - pad, 0.5 * before), ribbon.length + nose)
     law = TorqueLaw(demand.law.angle, share * demand.law.torque, share * demand.law.energy)
     states = []
     for direction in DIRECTIONS:
