@@ -203,7 +203,7 @@ def test_extreme_numbers_end_in_a_verdict(law: str) -> None:
 
 def test_the_remedies_for_too_small_a_drum_are_those_one_would_think_of() -> None:
     remedies = refusal("paper", "joint.drum_radius=24 mm").remedies
-    assert "raise joint.drum_radius from 24 to ≥ 24.6 mm" in remedies
+    assert "raise joint.drum_radius from 24 to ≥ 26.6 mm" in remedies
     assert any(remedy.startswith("raise cantilever.height from 4.9") for remedy in remedies)
 
 

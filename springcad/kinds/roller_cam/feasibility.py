@@ -28,6 +28,10 @@ ANGLES = 200
 """Angles at which the law is looked at."""
 ESTIMATE_ERROR = 0.03
 """Share by which the estimate of the stress may be wrong; measured: 0.9 to 1.4 %, too high."""
+DRUM_ROOM = 1.08
+"""Drum radius over the limiting one that remedies aim at: nearer to it the roller is so close to
+the tip at the end that the contact part's yielding decides."""
+_DRUM = "drum radius"
 _CONTACTS = np.geomspace(1e-6, 0.5 * math.pi, 300)
 """Contact angles round the roller between which the one that holds the energy is interpolated."""
 
@@ -177,7 +181,7 @@ def _energy(case: Case, angle: Floats, torque: Floats, energy: Floats) -> tuple[
     held = float(arm[worst] / reach) ** 2 * float(energy[worst])
     return (
         check(
-            f"drum radius, for the energy at {_degrees(angle[worst])}", roller.drum_radius, ">=",
+            f"{_DRUM}, for the energy at {_degrees(angle[worst])}", roller.drum_radius, ">=",
             float(radius[worst]), "m",
             source=f"law stores {1e3 * energy[worst]:.4g} N*mm there; F = "
             f"{torque[worst] / reach:.4g} N needs at least {1e3 * held:.4g} N*mm in a cantilever "
@@ -278,6 +282,23 @@ def knobs_of(case: Case) -> tuple[Knob, ...]:
 def case_remedies(case: Case) -> tuple[str, ...]:
     """Changes of the spec after which every closed-form check passes, each one recomputed.
 
-    Where no number helps, what is left to change.
+    A check that fails must then pass with room for what the closed forms leave out; one that had
+    none to begin with need not. Where no number helps, what is left to change.
     """
-    return remedies(case, knobs_of(case), failures) or (_LAW,)
+    close = set(_without_room(case)).difference(failures(case))
+
+    def left(tried: Case) -> tuple[str, ...]:
+        still = failures(tried)
+        return tuple(name for name in _without_room(tried) if name not in close or name in still)
+
+    return remedies(case, knobs_of(case), left) or (_LAW,)
+
+
+def _without_room(case: Case) -> tuple[str, ...]:
+    """Names of the checks that fail, or pass by less than the closed forms are sure of."""
+    return tuple(
+        claim.name.partition(",")[0]
+        for claim in _checks(case)
+        if claim.status != "pass"
+        or (claim.name.startswith(_DRUM) and claim.value < DRUM_ROOM * claim.limit)
+    )
