@@ -10,11 +10,10 @@ import numpy as np
 from springcad.kinds.leaf_2dof.made import MadeLeaves
 from springcad.kinds.leaf_2dof.sizing import approach
 from springcad.kinds.leaf_2dof.unit import contact_pressure
+from springcad.kinds.pressure import PRESSURE_OVER_ULTIMATE
 from springcad.mechanics.contact import contact_modulus
 from springcad.result import Check, check
 
-PRESSURE_OVER_ULTIMATE = 1.6
-"""Hertzian pressure over tensile strength that hardened steel bears statically (common limit)."""
 _ROUND_OFF = 1e-9
 
 

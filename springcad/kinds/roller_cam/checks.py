@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from springcad.kinds.pressure import PRESSURE_OVER_ULTIMATE
 from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.remedies import (
@@ -26,8 +27,6 @@ INTERFERENCE = 2e-6
 """Depth to which the calculated roller may cut into the profile beside its contact (m)."""
 LARGEST_CORRECTION = 2.0
 """Factor of the law's angles beyond which a curve from elsewhere is hardly of the same joint."""
-PRESSURE_OVER_ULTIMATE = 1.6
-"""Hertzian pressure over tensile strength that hardened steel bears statically (common limit)."""
 
 
 def joint_checks(made: MadeJoint) -> tuple[Check, ...]:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from springcad.kinds.pressure import PRESSURE_OVER_ULTIMATE
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.result import Check, check
 
@@ -25,8 +26,6 @@ DEFORMED_GAP = 5e-5
 """Gap between deformed flexures below which tolerances of cut and model may make them touch, m."""
 CAM_INTERFERENCE = 5e-6
 """Depth to which the calculated tips may cut into the camshaft, m: below what a cut resolves."""
-PRESSURE_OVER_ULTIMATE = 1.6
-"""Hertzian pressure over tensile strength that hardened steel bears statically (common limit)."""
 
 
 def spring_checks(spring: Spring) -> tuple[Check, ...]:

@@ -1,0 +1,47 @@
+"""The ring and the camshaft as parts to be cut, with their dimensions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.result import Dimension, Part
+
+FLANK_TOLERANCE = 6e-6
+"""The arcs of the camshaft's drawing follow it within this share of the contact radius, 36 nm for
+6 mm: at 2 um they waver enough to change the torque by 0.5 % locally."""
+
+
+def parts(spring: Spring) -> tuple[Part, ...]:
+    """Ring and camshaft; the camshaft drawn as finely as its torque asks for."""
+    title = spring.spec.material.values.title
+    thickness = spring.law.inputs.thickness
+    tolerance = FLANK_TOLERANCE * spring.law.inputs.contact_radius
+    return (
+        Part(
+            "", "flexure ring", spring.ring, thickness, title,
+            dimensions=(
+                _radius("outer", spring.case.outer_radius, 40.0),
+                _radius("root", spring.law.inputs.root_radius, 130.0),
+                _radius("contact", spring.law.inputs.contact_radius, 220.0),
+            ),
+        ),
+        Part(
+            "camshaft", "camshaft", spring.camshaft.profile, thickness, title, tolerance,
+            tuple(_camshaft_dimensions(spring)),
+        ),
+    )  # fmt: skip
+
+
+def _camshaft_dimensions(spring: Spring) -> Iterator[Dimension]:
+    yield _radius("tip", spring.camshaft.slot.tip_radius, 40.0)
+    yield _radius("slot", spring.camshaft.slot.bottom_radius, 130.0)
+    if spring.camshaft_inputs.bore_radius > 0.0:
+        yield _radius("bore", spring.camshaft_inputs.bore_radius, 220.0)
+
+
+def _radius(label: str, value: float, degrees: float) -> Dimension:
+    at = math.radians(degrees)
+    end = (value * math.cos(at), value * math.sin(at))
+    return Dimension(label, "radius", (0.0, 0.0), end)
