@@ -14,7 +14,7 @@ from springcad.kinds.lever_arm.straight_mesh import leaf_model, push_through
 from springcad.kinds.lever_arm.written_leaf import written_elastic, written_leaf
 from springcad.kinds.lever_arm.written_omega import written_omega
 from springcad.mechanics.fem.deck import SLICE, slice_deck
-from springcad.mechanics.fem.newton import Load, Model
+from springcad.mechanics.fem.model import Load, Model
 from springcad.written import WrittenDesign
 
 

@@ -29,7 +29,8 @@ from springcad.mechanics.fem.blocks import (
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints
 from springcad.mechanics.fem.element import gauss_points, shape_functions
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load, Model, State, prepare_model, solve_path
+from springcad.mechanics.fem.model import Load, Model, State, prepare_model
+from springcad.mechanics.fem.newton import solve_path
 from springcad.mechanics.fem.recovery import edge_stress
 
 Floats = NDArray[np.float64]

@@ -27,7 +27,7 @@ from springcad.mechanics.fem.deck_contact import (
     strip_motion,
 )
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load
+from springcad.mechanics.fem.model import Load
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
