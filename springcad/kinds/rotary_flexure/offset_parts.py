@@ -72,7 +72,7 @@ def _clamped_root(spring: Spring, offset: float) -> RootModel:
     """By finite elements, for the thickened beam clamped at the root radius of the design."""
     spec, case, sized = spring.spec, spring.case, spring.sized
     whole = thickened(sized.found.ribbon, offset)
-    free = shortened(whole, offset)
+    free = shortened(whole, offset) if offset != 0.0 else whole
     sector = SectorGeometry(
         free,
         case.inputs.root_radius - offset,
