@@ -32,7 +32,10 @@ def with_tolerance(result: Result, spring: Spring) -> Result:
     try:
         surface = response_surface(spring)
     except (ArithmeticError, InfeasibleError, ValueError) as error:
-        note = f"Sensitivities to tolerances are not known: {error}."
+        note = (
+            "Sensitivities to tolerances are not known: the forward analysis fails "
+            f"{STEP * 1e6:g} um off the drawing ({error})."
+        )
         return replace(
             result,
             response={**result.response, "sensitivity": None},
