@@ -131,7 +131,8 @@ def _straight(made: MadeJoint) -> Iterator[Step]:
     h = _number(cast("Mapping[str, Value]", design["leaf"]), "thickness_m")
     if case.stiffness:
         yield found("h", "thickness at the clamp", h, "m", f"nonlinear beam, {_BEAM}",
-                    "thinner until the stiffness is the wanted one; about with its cube root")  # fmt: skip
+                    "thinner, about with the cube root, until the stiffness is the wanted one",
+                    )  # fmt: skip
     else:
         yield derived("h", "thickness at the clamp", "h_full", h, "m", "no stiffness is wanted")
 
