@@ -49,7 +49,7 @@ def life_steps(result: Result, peak: str) -> Iterator[Step]:
     """
     cycles, note = result.response.get("life_cycles"), str(result.response.get("life_note", ""))
     if isinstance(cycles, float):
-        yield found("N_life", f"life at {peak}, cycles", cycles, "1", _PAGE, note)
+        yield found("N_life", "life at the largest stress, cycles", cycles, "1", _PAGE, note)
     factor = result.response.get("stress_safety_factor")
     if isinstance(factor, float):
         yield derived(

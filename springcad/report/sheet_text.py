@@ -18,6 +18,8 @@ from springcad.sheet import TOLERANCE, Section, Sheet, Step, agrees, recomputed
 WIDTH = 100
 _EQUATIONS = 50
 """Column in which equations begin."""
+_UNBROKEN = 50
+"""Length up to which a source stays on one line."""
 _NO_BREAK_SPACE = "\N{NO-BREAK SPACE}"
 _WORDS = {"pass": "pass", "warn": "WARN", "fail": "FAIL"}
 
@@ -67,7 +69,7 @@ def _step(
 ) -> Iterator[str]:
     symbol, value = symbol_text(step.symbol), quantity_text(step.value, step.unit)
     equation = f"{symbol} = {formula_text(step.formula) if step.formula else value}"
-    source = f"[{step.source}]" if step.source else ""
+    source = _source(step.source)
     indent = " " * (len(label) + 2)
     if step.formula:
         yield from _beside(label, step.meaning, equation, width)
@@ -84,6 +86,12 @@ def _step(
             indent,
             width,
         )
+
+
+def _source(source: str) -> str:
+    """In brackets; a short one is never broken."""
+    words = f"[{source}]" if source else ""
+    return words.replace(" ", _NO_BREAK_SPACE) if len(words) <= _UNBROKEN else words
 
 
 def _told(label: str, meaning: str, equation: str, source: str, width: int) -> Iterator[str]:
