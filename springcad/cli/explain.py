@@ -40,7 +40,7 @@ def explain(
     for reading in read_specs(specs, overrides or ()):
         account = _explained(reading)
         if account.sheet is not None and not as_json:
-            _print(account.sheet, is_first=not accounts)
+            _print(account.sheet, is_first=not any(earlier.sheet for earlier in accounts))
         if account.error is not None:
             say(failure_text(account.error, account.path, form))
         accounts.append(account)

@@ -138,6 +138,8 @@ def _power(base: ast.expr, exponent: ast.expr, style: _Style) -> str:
     match base:
         case ast.Call(func=ast.Name(id=name), args=[argument]) if name in _TRIGONOMETRIC:
             return f"{name}{raised}({_text(argument, style).text})"
+        case ast.Call(func=ast.Name(id=name)) if name in _ROOTS:
+            return f"({_text(base, style).text}){raised}"
     return _text(base, style).within(_ATOM) + raised
 
 

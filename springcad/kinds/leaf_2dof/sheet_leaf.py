@@ -9,6 +9,7 @@ from springcad.kinds.leaf_2dof import estimate, paper_unit
 from springcad.kinds.leaf_2dof.case import Case, Setup
 from springcad.kinds.leaf_2dof.seating import shear_modulus
 from springcad.kinds.leaf_2dof.unit import rest_stiffness, rest_stiffness_range
+from springcad.kinds.sheet_words import chosen_within
 from springcad.mechanics.section import SHEAR_CORRECTION, area, second_moment_of_area
 from springcad.sheet import Section, Step, derived, found, given, suffixed
 
@@ -53,18 +54,27 @@ def estimate_section(case: Case, setup: Setup) -> tuple[Section, ...]:
 
 def _leaf(case: Case, setup: Setup) -> Iterator[Step]:
     leaf = setup.leaf
-    for symbol, meaning, value, unit, is_given in (
-        ("n", "leaves that bear together about an axis", setup.leaves, "1", case.leaves),
-        ("a", "width of the leaf", leaf.width, "m", case.least_width is None),
-        ("b", "thickness of the leaf", leaf.thickness, "m", case.least_thickness is None),
-        ("L_max", "longest effective length", setup.longest, "m", case.longest),
-        ("L_min", "shortest effective length", setup.shortest, "m", case.shortest),
+    if case.leaves is None:
+        yield found("n", "leaves that bear together about an axis", setup.leaves, "1", _SIZING,
+                    "the fewest that pass every check")  # fmt: skip
+    else:
+        yield given("n", "leaves that bear together about an axis", setup.leaves, "1")
+    for symbol, meaning, value, low, high in (
+        ("a", "width of the leaf", leaf.width, case.least_width, case.width),
+        ("b", "thickness of the leaf", leaf.thickness, case.least_thickness, case.thickness),
     ):
-        if is_given:
-            yield given(symbol, meaning, value, unit)
+        if low is None:
+            yield given(symbol, meaning, value, "m")
         else:
-            yield found(symbol, meaning, value, unit, _SIZING, "rounded to a micrometre"
-                        if unit == "m" else "the fewest that pass every check")  # fmt: skip
+            yield found(symbol, meaning, value, "m", _SIZING, chosen_within(value, low, high))
+    for symbol, meaning, value, known in (
+        ("L_max", "longest effective length", setup.longest, case.longest),
+        ("L_min", "shortest effective length", setup.shortest, case.shortest),
+    ):
+        if known is None:
+            yield found(symbol, meaning, value, "m", _SIZING, "for the wanted stiffness at rest")
+        else:
+            yield given(symbol, meaning, value, "m")
     inertia = float(second_moment_of_area(leaf.width, 0.5 * leaf.thickness))
     yield derived("I", "second moment of area", "a*b**3/12", inertia, "m^4", "003, Eq. 7")
     yield derived("B", "bending stiffness", "E*I", leaf.bending_stiffness, "N*m^2", "003, Eq. 7")

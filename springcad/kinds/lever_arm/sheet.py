@@ -29,8 +29,6 @@ def explain_joint(spec: Spec, progress: Progress) -> Sheet:
         return Sheet(spec.kind, spec.name, early, feasibility_checks(case), refusal)
     result = summarise(spec, made)
     ends = {"near": case.pivot_low, "far": case.pivot_high}
-    if case.pivot_low == case.pivot_high:
-        del ends["far"]
     late = (
         spring_section(made, result),
         *(mechanism_section(made, where, pivot) for where, pivot in ends.items()),

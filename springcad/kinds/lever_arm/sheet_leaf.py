@@ -82,17 +82,18 @@ def _closed(case: Case) -> Iterator[Step]:
     )  # fmt: skip
     sheet = case.sheet or sheet_for(full_thickness(case))
     if width == "b_w" and sheet:
+        symbol = "t" if case.sheet else "t_cf"
         if not case.sheet:
-            yield found("t", "sheet: the thickest customary one below that", sheet, "m", _BEAM)
+            yield found(symbol, "the thickest customary sheet below h_cf", sheet, "m", _BEAM)
         yield derived(
-            "k_t", "stiffness of one leaf of this sheet", "E*b_w*t**3/(12*c*L**3)",
+            "k_t", "stiffness of one leaf of this sheet", f"E*b_w*{symbol}**3/(12*c*L**3)",
             float(stiffness(shape, E, b, L, sheet)), "N/m", "000, Eq. 11",
         )  # fmt: skip
 
 
 def _bound(case: Case) -> Iterator[Step]:
     density = case.design_stress**2 / (2.0 * case.elastic_modulus)
-    yield derived("w_d", "energy density at the stress", "sigma_d**2/(2*E)", density, "J/m^3",
+    yield derived("w_d", "energy density at the stress", "sigma_d**2/(2*E)", density, "Pa",
                   "000, III-B")  # fmt: skip
     area = math.pi * case.radius**2
     yield derived("A_c", "area of the enclosure", "pi*R_c**2", area, "m^2", "circle")
@@ -117,9 +118,8 @@ def _straight(made: MadeJoint) -> Iterator[Step]:
         if not case.width:
             yield found("b_w", "width at the clamp", spring.width, "m", _BEAM,
                         "the stiffness is as the width")  # fmt: skip
-            if not case.sheet:
-                yield found("t", "sheet: the thickest customary one below that", spring.sheet, "m",
-                            _BEAM)  # fmt: skip
+        if not case.sheet:
+            yield found("t", "the thickest customary sheet below h_full", spring.sheet, "m", _BEAM)
         yield derived("u_t", "share of the thickness that the sheet has", "t/h_full",
                       spring.sheet / full, "1", "comparison")  # fmt: skip
         return

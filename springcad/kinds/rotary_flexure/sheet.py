@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from springcad.errors import InfeasibleError
+from springcad.kinds.law_sheet import law_steps
 from springcad.kinds.rotary_flexure.design import build_spring
 from springcad.kinds.rotary_flexure.feasibility import Case, feasibility_checks
-from springcad.kinds.rotary_flexure.inputs import case_of, full_load_of, rotary_spec
+from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.sheet_law import law_section, room_section
 from springcad.kinds.rotary_flexure.sheet_spring import (
@@ -78,12 +79,10 @@ def _given(spec: RotaryFlexureSpec, case: Case) -> Iterator[Step]:
 
 def _law(spec: RotaryFlexureSpec, case: Case) -> Iterator[Step]:
     """The linear spring with torque and energy of the law at full load."""
-    torque, energy, at_rest = full_load_of(spec)
-    page = "theory/rotary-flexure.md, 10"
+    page, law = "theory/rotary-flexure.md, 10", spec.target.law
+    assert law is not None, "a valid spec has a stiffness or a law"
     yield given("theta_w", "deflection, each way", spec.target.deflection, "rad")
-    yield given("T_w", "torque of the law there", torque, "N*m", "target.law")
-    yield given("W_w", "energy of the law there", energy, "J", "target.law, its integral")
-    yield given("k_0", "stiffness of the law at rest", at_rest, "N*m/rad", "target.law, its slope")
+    yield from law_steps(law, target_of(spec), "theta_w")
     yield derived("k", "stiffness of the linear spring with both", "T_w**2/(2*W_w)",
                   case.inputs.stiffness, "N*m/rad", page)  # fmt: skip
     yield derived("theta", "deflection of that spring", "2*W_w/T_w", case.inputs.deflection, "rad",
