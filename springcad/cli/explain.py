@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from springcad.cli.console import progress_shown, say
+from springcad.cli.console import progress_shown, result_console, say
 from springcad.cli.failures import Format, failure_data, failure_text, worst
 from springcad.cli.options import Json, ProblemFormat, Specs
 from springcad.errors import SpringcadError
@@ -18,6 +18,9 @@ from springcad.errors import SpringcadError
 if TYPE_CHECKING:
     from springcad.batch.specs import Reading
     from springcad.sheet import Sheet
+
+_NARROWEST = 60
+"""Columns below which a terminal may break the lines itself."""
 
 
 def explain(
@@ -87,7 +90,7 @@ def _print(sheet: Sheet, *, is_first: bool) -> None:
 
     if not is_first:
         typer.echo()
-    typer.echo(sheet_text(sheet), nl=False)
+    typer.echo(sheet_text(sheet, max(result_console().width, _NARROWEST)), nl=False)
 
 
 def _as_json(accounts: Sequence[_Account], is_single: bool) -> str:

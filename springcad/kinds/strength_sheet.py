@@ -7,9 +7,15 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from springcad.materials.allowable import bending_strength
-from springcad.materials.data import Value
-from springcad.materials.fatigue_strength import FatigueStrength
-from springcad.mechanics.fatigue import HIGH_CYCLES, LOW_CYCLES, amplitude_and_mean
+from springcad.materials.data import Material, Value
+from springcad.materials.fatigue_strength import Factor, FatigueStrength
+from springcad.mechanics.fatigue import (
+    HIGH_CYCLES,
+    LOW_CYCLES,
+    SURFACES,
+    amplitude_and_mean,
+    endurance_limit_estimate,
+)
 from springcad.result import Result
 from springcad.sheet import Section, Step, derived, found, given
 from springcad.spec.material import MaterialSpec
@@ -71,15 +77,18 @@ def _from_life(material: MaterialSpec, strength: FatigueStrength) -> Iterator[St
     duty = strength.duty
     yield given("N", "wanted life, cycles", duty.cycles, "1")
     yield given("R_load", "load ratio, smallest over largest stress", duty.load_ratio, "1")
-    yield from _line(strength)
+    yield from _line(material.values, strength)
     yield from _exponent(strength)
     exponent = "p" if strength.estimated else ""
     amplitude = strength.start
     effects = []
     for factor in strength.factors[:3]:
         symbol = _MARIN[factor.name]
-        yield given(symbol, f"factor: {factor.name}", factor.value, "1", f"{_PAGE}, 2",
-                    factor.words)  # fmt: skip
+        if factor.name == "surface" and duty.surface_factor is None and duty.surface in SURFACES:
+            yield from _surface(duty.surface, factor)
+        else:
+            yield given(symbol, f"factor: {factor.name}", factor.value, "1", f"{_PAGE}, 2",
+                        factor.words)  # fmt: skip
         amplitude *= factor.effect
         effects.append(f"{symbol}**{exponent}" if exponent else symbol)
     yield derived(
@@ -97,7 +106,7 @@ def _from_life(material: MaterialSpec, strength: FatigueStrength) -> Iterator[St
                   f"{_PAGE}, 3", "never above yield")  # fmt: skip
 
 
-def _line(strength: FatigueStrength) -> Iterator[Step]:
+def _line(material: Material, strength: FatigueStrength) -> Iterator[Step]:
     """The smooth line, and its stress ``S_smooth`` at the wanted life."""
     points, cycles = strength.smooth.points, strength.duty.cycles
     if len(points) == 1:
@@ -112,14 +121,38 @@ def _line(strength: FatigueStrength) -> Iterator[Step]:
     else:
         yield given("S_1", "stress there", s1, "Pa", strength.basis)
     yield given("N_2", "cycles at the next point", n2, "1", _PAGE)
-    note = "S_ut/2, at most 700 MPa, or less if a source says so" if strength.estimated else ""
-    yield given("S_2", "stress there", s2, "Pa", strength.basis, note)
+    if strength.estimated:
+        yield from _endurance(material, strength, s2)
+    else:
+        yield given("S_2", "stress there", s2, "Pa", strength.basis)
     reached = "min(N, N_2)" if strength.smooth.endures else "N"
     yield derived(
         "S_smooth", "stress of the line at the wanted life",
         f"S_1*({reached}/N_1)**(log(S_2/S_1)/log(N_2/N_1))", strength.start, "Pa", f"{_PAGE}, 1",
         "smooth specimens, half of which survive; straight in log-log",
     )  # fmt: skip
+
+
+def _endurance(material: Material, strength: FatigueStrength, stress: float) -> Iterator[Step]:
+    """The endurance limit ``S_2`` of a steel: estimated, or what a source says if it is less."""
+    most = endurance_limit_estimate(math.inf)
+    yield given("S_e", "largest endurance limit of the estimate", most, "Pa",
+                f"Shigley, {_PAGE}, 1")  # fmt: skip
+    known, formula = material.fatigue_strength, "min(S_ut/2, S_e)"
+    if known is not None and not strength.basis.startswith("estimate"):
+        yield given("S_f", "fatigue strength of the source", known.value, "Pa", known.source)
+        formula = "min(S_f, S_ut/2, S_e)"
+    yield derived("S_2", "stress there", formula, stress, "Pa", f"estimate, {_PAGE}, 1")
+
+
+def _surface(name: str, factor: Factor) -> Iterator[Step]:
+    """Marin's surface factor from the ultimate strength."""
+    a, b = SURFACES[name]
+    yield given("a_s", f"factor of a {name} surface", a, "1", f"Shigley, {_PAGE}, 2")
+    yield given("b_s", "exponent of it", b, "1", f"Shigley, {_PAGE}, 2")
+    yield given("S_1MPa", "unit of that formula", 1e6, "Pa", f"{_PAGE}, 2")
+    yield derived("k_a", "factor: surface", "min(1, a_s*(S_ut/S_1MPa)**b_s)", factor.value, "1",
+                  f"Marin, {_PAGE}, 2", factor.words)  # fmt: skip
 
 
 def _exponent(strength: FatigueStrength) -> Iterator[Step]:

@@ -132,6 +132,8 @@ def _checks(number: int, checks: tuple[Check, ...], width: int) -> Iterator[str]
         yield from _beside(f"{number}.{place}", check.name, claim, width)
         indent = " " * (len(f"{number}.{place}") + 2)
         yield from _wrapped(f"[{check.source}]", indent, width)
+        if check.remedy:
+            yield from _wrapped(f"what to change: {check.remedy}", indent, width)
 
 
 def _verdict(sheet: Sheet, again: Mapping[str, float]) -> str:

@@ -17,8 +17,7 @@ def wrist_section(made: MadeLeaves) -> Section:
     """The rod with both axes turned as far as at the longest length."""
     return Section(
         "The wrist, both axes turned, longest length", tuple(_steps(made)),
-        "Each axis has its own leaves; the rod stands along z at rest. alpha is the angle of both "
-        "axes.",
+        "Each axis has its own leaves; the rod stands along z at rest; α is the angle of both.",
     )  # fmt: skip
 
 

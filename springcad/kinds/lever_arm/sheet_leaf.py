@@ -172,6 +172,8 @@ def _omega(made: MadeJoint) -> Iterator[Step]:
     yield derived("k_1", "stiffness of one layer at full stress", "k_nl*t",
                   per_width * case.sheet, "N/m", "stack of sheet")  # fmt: skip
     yield from _stacked(made)
+    yield given("w_min", "smallest web of the process", case.min_web, "m")
+    yield given("g_min", "smallest gap of the process", case.min_gap, "m")
     thickness = response["leaf_thickness_m"]
     for symbol, meaning, value in (
         ("L_h", "length of a half", _number(leaf, "half_length_m")),

@@ -86,6 +86,9 @@ def _flexure(spring: Spring) -> Iterator[Step]:
     yield given("z_max", "largest half thickness times curvature allowed",
                 spring.spec.flexures.bend_limit, "1")  # fmt: skip
     yield found("z", "largest half thickness times curvature", ribbon.largest_bend, "1", "shape")
+    yield derived("u_z", "share of the bend limit", "z/z_max",
+                  ribbon.largest_bend / spring.spec.flexures.bend_limit, "1",
+                  "comparison")  # fmt: skip
     yield found("g", "smallest gap between neighbours at rest", shape.gap, "m", "polygons")
     yield found("r_f", "radius of the root fillets", spring.fillet, "m", f"{_PAGE}, 8")
     yield derived("C_1", "unit of the root's compliance", "1/(E*t*h_r**2)",
