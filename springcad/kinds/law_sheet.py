@@ -53,10 +53,12 @@ def _forms(law: LawSpec) -> Generator[Step, None, tuple[str, ...]]:
     for power, coefficient in enumerate(coefficients, 1):
         yield given(f"c_{power}", f"coefficient of x^{power} in the torque", coefficient,
                     "N*m/rad" if power == 1 else f"N*m/rad^{power}")  # fmt: skip
-    powers = range(1, len(coefficients) + 1)
-    torque = " + ".join(f"c_{power}*x_w**{power}" for power in powers)
-    energy = " + ".join(f"c_{power}*x_w**{power + 1}/{power + 1}" for power in powers)
-    return (torque, energy, "c_1") if coefficients else ()
+    if not coefficients:
+        return ()
+    powers = range(2, len(coefficients) + 1)
+    torque = " + ".join(["c_1*x_w", *(f"c_{power}*x_w**{power}" for power in powers)])
+    energy = " + ".join(f"c_{power}*x_w**{power + 1}/{power + 1}" for power in (1, *powers))
+    return torque, energy, "c_1"
 
 
 def _coefficients(law: LawSpec) -> Sequence[float]:

@@ -41,8 +41,8 @@ def _rules(width: int) -> list[str]:
     """How to read it."""
     text = (
         "Values are those of the design. Below each equation stand its numbers; the source is in "
-        "brackets: [000, Eq. 5] is an equation of a paper, [theory/x.md] a page of the "
-        "documentation."
+        "brackets: [spec] is the spec or its default, [000, Eq. 5] an equation of a paper, "
+        "[theory/x.md, 2] a section of the documentation."
     )
     return textwrap.wrap(text, width)
 

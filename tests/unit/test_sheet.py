@@ -32,7 +32,7 @@ CASES = (
     "lever-triangular",
     "leaf2-paper",
     "leaf2-design",
-    "rotary-minimal",
+    "S1",
     "roller-paper",
 )
 """Shipped specs of every kind that are designed quickly."""
@@ -257,11 +257,15 @@ def test_the_same_spec_gives_the_same_sheet() -> None:
 
 
 def test_published_numbers_stand_in_the_sheets() -> None:
-    """003: 1.54 and 140.4 N·m/rad, 14.83 deg; 001: 12 N·m a group; 000: η_A of a parabola 1/3."""
+    """003: 1.54 and 140.4 N·m/rad, 14.83 deg; 004: Table I; 001: 12 N·m a group; 000: η_A = 1/3."""
     wrist = {step.symbol: step.value for step in explained("leaf2-paper").steps}
     assert wrist["K_16_long"] == pytest.approx(1.54, abs=0.005)
     assert wrist["K_16_short"] == pytest.approx(140.4, abs=0.05)
     assert np.degrees(wrist["phi_theta_long"]) == pytest.approx(14.83, abs=0.005)
+    spring = {step.symbol: step.value for step in explained("S1").steps}
+    assert spring["f_s"] == pytest.approx(1.00, abs=0.006)
+    assert spring["f_d"] == pytest.approx(0.40, abs=0.005)
+    assert np.degrees(spring["theta_s"]) == pytest.approx(12.6, abs=0.05)
     cam = {step.symbol: step.value for step in explained("roller-paper").steps}
     assert cam["T"] == pytest.approx(12.0, rel=0.03)
     lever = {step.symbol: step.value for step in explained("lever-parabolic").steps}

@@ -53,7 +53,7 @@ def _closed(spec: RotaryFlexureSpec, case: Case) -> tuple[Section, ...]:
         return head
     law = design_law(inputs)
     density = spec.material.values.density.value
-    return *head, law_section(law), room_section(case, law, density)
+    return *head, law_section(case, law), room_section(case, law, density)
 
 
 def _given(spec: RotaryFlexureSpec, case: Case) -> Iterator[Step]:
@@ -69,7 +69,8 @@ def _given(spec: RotaryFlexureSpec, case: Case) -> Iterator[Step]:
     yield given("n", "flexures", inputs.count, "1")
     yield given("t", "thickness of the sheet", inputs.thickness, "m")
     yield given("h_t", "thickness at the tip", 2.0 * inputs.tip_half_thickness, "m")
-    yield given("g_min", "smallest gap between neighbours", case.min_gap, "m")
+    yield given("g_min", "smallest gap between neighbours", case.min_gap, "m",
+                "flexures.min_gap, or the process")  # fmt: skip
     if case.camshaft_bore_radius:
         yield given("r_b", "radius of the camshaft's bore", case.camshaft_bore_radius, "m")
     if inputs.shift:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from springcad.kinds.rotary_flexure.feasibility import Case
+from springcad.kinds.rotary_flexure.feasibility import Case, resolved_style
 from springcad.kinds.rotary_flexure.law import (
     DesignLaw,
     energy_of_area,
@@ -23,10 +23,13 @@ from springcad.sheet import Section, Step, derived
 _PAGE = "theory/rotary-flexure.md"
 
 
-def law_section(law: DesignLaw) -> Section:
+def law_section(case: Case, law: DesignLaw) -> Section:
     """From torque and stress to the area of a flexure."""
+    steps = tuple(_law(law))
+    if resolved_style(law, case.style) == "straight":
+        steps += tuple(_straight(law))
     return Section(
-        "Design law (004, section II)", tuple(_law(law)),
+        "Design law (004, section II)", steps,
         "A straight tapered flexure at the design stress everywhere, small deflections, rim and "
         "root rigid; then the area that the energy takes.",
     )  # fmt: skip
@@ -84,6 +87,18 @@ def _law(law: DesignLaw) -> Iterator[Step]:
                   law.straight_factor, "1", f"{_PAGE}, 3")  # fmt: skip
     yield derived("A_f", "area of a flexure, its pad counted", "A_serp + A_nom*rho_t**3",
                   law.flexure_area, "m^2", f"{_PAGE}, 3")  # fmt: skip
+
+
+def _straight(law: DesignLaw) -> Iterator[Step]:
+    """What a straight flexure of this stiffness bears; none where its tip alone is stiffer."""
+    factor = law.straight_thickness_factor
+    if math.isnan(factor):
+        return
+    yield derived("m_h", "thickness over that of the law, for the stiffness",
+                  "cbrt((1 + sqrt(1 - 2*rho_t**3*f_s))/(2*f_s))", factor, "1",
+                  f"{_PAGE}, 3")  # fmt: skip
+    yield derived("sigma_s", "stress of straight flexures", "sigma_d/m_h**2",
+                  law.inputs.design_stress / factor**2, "Pa", f"{_PAGE}, 3")  # fmt: skip
 
 
 def _room(case: Case, law: DesignLaw, density: float) -> Iterator[Step]:
