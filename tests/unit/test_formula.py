@@ -119,26 +119,32 @@ _formulas = strategies.recursive(
 @hypothesis_given(_formulas)
 def test_what_is_written_means_what_is_calculated(formula):
     """Read back as Python, a written formula has the value of the formula: no bracket is lost."""
-    back = formula_text(formula).translate(str.maketrans("·−θ₁", "*-tx"))
-    back = back.replace("tx", "theta_1")
-    back = re.sub(r"sin(⁻?[²³¹])\(", r"sin\1(", back)
-    back = _with_powers(back)
-    expected, found = evaluate(formula, VALUES), evaluate(back, VALUES)
+    back = formula_text(formula).translate(str.maketrans("·−₁", "*-1")).replace("θ1", "theta_1")
+    expected, found = evaluate(formula, VALUES), evaluate(_with_powers(back), VALUES)
     assert found == pytest.approx(expected, rel=1e-12, nan_ok=True), (formula, back)
 
 
+_POWER = re.compile("⁻?[¹²³]")
+
+
 def _with_powers(text: str) -> str:
-    """Small digits back to powers; one behind ``sin`` is that of the whole call."""
-    digits = str.maketrans("⁰¹²³⁻", "0123-")
-    while (match := re.search(r"sin(⁻?[¹²³])\(", text)) is not None:
-        depth, end = 1, match.end()
-        while depth:
-            depth += {"(": 1, ")": -1}.get(text[end], 0)
-            end += 1
-        power = match[1].translate(digits)
-        inner = text[match.end() : end]
-        text = f"{text[: match.start()]}(sin({inner})**{power}{text[end:]}"
-        text = text[: match.start()] + text[match.start() :].replace(
-            f"**{power}", f"**({power}))", 1
-        )
-    return re.sub(r"⁻?[⁰¹²³]+", lambda power: f"**({power[0].translate(digits)})", text)
+    """Small digits back to powers; those behind ``sin`` are of the whole call."""
+    while (match := _POWER.search(text)) is not None:
+        power = f"**({match[0].translate(str.maketrans('¹²³⁻', '123-'))})"
+        before, after = text[: match.start()], text[match.end() :]
+        if before.endswith("sin"):
+            end = _closing(after)
+            text = f"{before[:-3]}(sin{after[:end]}{power}){after[end:]}"
+        else:
+            text = before + power + after
+    return text
+
+
+def _closing(text: str) -> int:
+    """Where the bracket that ``text`` begins with is closed."""
+    depth = 0
+    for place, sign in enumerate(text):
+        depth += {"(": 1, ")": -1}.get(sign, 0)
+        if depth == 0:
+            return place + 1
+    raise ValueError(text)
