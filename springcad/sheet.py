@@ -10,10 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from springcad.errors import InfeasibleError
 from springcad.formula import evaluate, renamed
 from springcad.result import Check
+
+Basis = Literal["given", "derived", "found"]
 
 TOLERANCE = 1e-6
 """Relative difference up to which a formula gives the value of its step again."""
@@ -27,8 +30,10 @@ class Step:
         symbol: a Python name, unique in its sheet; Greek letters by their names, as ``sigma_d``.
         meaning: in a few words.
         value, unit: SI.
+        basis: given to the calculation; derived from earlier steps in closed form; or found in
+            another way, as by a search, by the beam with large deflections or by finite elements.
         formula: over the symbols of earlier steps (see ``springcad.formula``); empty for what is
-            given, and for what no closed form gives.
+            given or found.
         source: of the value or of the formula: the spec, an equation of a paper, a method.
         note: what else there is to know.
     """
@@ -37,6 +42,7 @@ class Step:
     meaning: str
     value: float
     unit: str
+    basis: Basis
     formula: str = ""
     source: str = ""
     note: str = ""
@@ -101,7 +107,7 @@ def given(
     symbol: str, meaning: str, value: float, unit: str, source: str = "spec", note: str = ""
 ) -> Step:
     """A step that the calculation starts from."""
-    return Step(symbol, meaning, float(value), unit, "", source, note)
+    return Step(symbol, meaning, float(value), unit, "given", "", source, note)
 
 
 def derived(
@@ -114,12 +120,12 @@ def derived(
     note: str = "",
 ) -> Step:
     """A step that follows from earlier ones in closed form; ``value`` is that of the design."""
-    return Step(symbol, meaning, float(value), unit, formula, source, note)
+    return Step(symbol, meaning, float(value), unit, "derived", formula, source, note)
 
 
 def found(symbol: str, meaning: str, value: float, unit: str, source: str, note: str = "") -> Step:
     """A step that no closed form gives; ``source`` says what does."""
-    return Step(symbol, meaning, float(value), unit, "", source, note)
+    return Step(symbol, meaning, float(value), unit, "found", "", source, note)
 
 
 def suffixed(steps: Iterable[Step], suffix: str) -> tuple[Step, ...]:

@@ -74,8 +74,8 @@ VARIANTS: dict[str, tuple[str, tuple[str, ...]]] = {
         ("mount={held: pocket}", "friction=0.02", SIZED),
     ),
 }  # fmt: skip
-SLOW = ("rotary-exponential", "rotary-full", "rotary-life", "roller-quadratic", "roller-stiffness")
-"""Laws of other forms, shared or after a dead zone; friction; a life; the paper's control points."""
+SLOW = ("rotary-exponential", "rotary-full", "roller-quadratic", "roller-stiffness")
+"""Laws of other forms, shared or after a dead zone; friction; the paper's control points."""
 
 
 @cache
@@ -156,6 +156,13 @@ def test_the_sheet_tells_what_the_report_tells(name: str) -> None:
     sheet = explained(name)
     assert sheet.checks == result.checks
     assert (sheet.kind, sheet.name) == (result.kind, result.name)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_formula_is_what_tells_derived_numbers_from_others(name: str) -> None:
+    sheet = explained(name)
+    assert all((step.basis == "derived") == bool(step.formula) for step in sheet.steps)
+    assert {step.basis for step in sheet.steps} == {"given", "derived", "found"}
 
 
 @pytest.mark.parametrize(
