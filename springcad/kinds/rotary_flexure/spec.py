@@ -18,6 +18,7 @@ from springcad.kinds.rotary_flexure.calibration_spec import (
     one_friction,
     same_material,
 )
+from springcad.kinds.rotary_flexure.tolerance_spec import TOLERANCE_RULES, Tolerance
 from springcad.spec.common import (
     AutoLength,
     CommonSpec,
@@ -248,6 +249,7 @@ class RotaryFlexureSpec(CommonSpec):
         _weighting,
         same_material,
         one_friction,
+        *TOLERANCE_RULES,
     )
 
     kind: Literal["rotary-flexure"]
@@ -275,6 +277,8 @@ class RotaryFlexureSpec(CommonSpec):
     """How the serpentine centre line is searched for."""
     calibration: CalibrationEntry = None
     """What a bench test of an earlier design has told: a file of springcad calibrate."""
+    tolerance: Tolerance | None = None
+    """What the shop holds: the share of parts that come out as wanted is then reported."""
 
 
 SPEC_MODEL = RotaryFlexureSpec
