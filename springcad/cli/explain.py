@@ -6,13 +6,13 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 from springcad.cli.console import progress_shown, result_console, say
 from springcad.cli.failures import Format, failure_data, failure_text, worst
-from springcad.cli.options import Json, ProblemFormat, Specs
+from springcad.cli.options import Json, Overrides, ProblemFormat, Specs
 from springcad.errors import SpringcadError
 
 if TYPE_CHECKING:
@@ -25,10 +25,7 @@ _NARROWEST = 60
 
 def explain(
     specs: Specs,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Replace a value: target.deflection=12deg"),
-    ] = None,
+    overrides: Overrides = None,
     as_json: Json = False,
     form: ProblemFormat = Format.text,
 ) -> None:

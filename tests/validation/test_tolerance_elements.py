@@ -29,7 +29,7 @@ from springcad.kinds.rotary_flexure.sector_contact import (
 )
 from springcad.kinds.rotary_flexure.written_spring import written_spring
 from springcad.mechanics.fem.contact import prepare_contact
-from springcad.mechanics.fem.newton import prepare_model
+from springcad.mechanics.fem.model import prepare_model
 from springcad.mechanics.fem.rigid_profile import rigid_profile
 
 UM = 1e-6
