@@ -23,9 +23,9 @@ from springcad.kinds.lever_arm.omega import (
     half_ribbon,
     omega_response,
 )
+from springcad.kinds.lever_arm.omega_exact import equilibrium, rest_guess
 from springcad.kinds.lever_arm.omega_form import half_of, variables_of
 from springcad.kinds.lever_arm.omega_problem import linear_problem
-from springcad.kinds.lever_arm.omega_states import equilibrium, rest_guess
 from springcad.mechanics.beam import RibbonBeam, follower_load, prepare
 
 STEEL = OmegaCase(
