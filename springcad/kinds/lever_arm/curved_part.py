@@ -88,7 +88,7 @@ def _half(leaf: OmegaLeaf, fittings: Fittings) -> Half:
 def _leave_hub(half: Half, radius: float, side: float) -> tuple[Floats, float]:
     """Centre of the fillet between hub and an edge, and the station where it meets the edge."""
 
-    def outside(stations: ArrayLike) -> Floats:
+    def outside(stations: float | Floats) -> Floats:
         centers = half.beyond(stations, side, radius)[1]
         return np.asarray(np.hypot(centers[..., 0], centers[..., 1]) - (half.hub + radius))
 
@@ -100,7 +100,7 @@ def _leave_hub(half: Half, radius: float, side: float) -> tuple[Floats, float]:
             "radius of the hub, for the fillets beside it", half.hub, 0.0, "m",
             ("raise connection.eye_wall",),
         )  # fmt: skip
-    station = float(brentq(outside, 0.0, beyond, xtol=1e-15))
+    station = float(brentq(lambda s: float(outside(s)), 0.0, beyond, xtol=1e-15))
     return half.beyond(station, side, radius)[1], station
 
 

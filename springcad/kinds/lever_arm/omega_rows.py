@@ -79,7 +79,7 @@ def smallest(margin: Dual) -> Dual:
 @cache
 def _factor() -> tuple[Chebyshev, Chebyshev]:
     domain = [-LARGEST_RATIO, LARGEST_RATIO]
-    fit = Chebyshev.interpolate(curved_beam_factor, 12, domain=domain)  # within 5e-9 of it
+    fit = Chebyshev.interpolate(curved_beam_factor, 20, domain=domain)
     return fit, fit.deriv()
 
 
