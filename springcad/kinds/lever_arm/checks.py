@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from springcad.kinds.lever_arm.feasibility import Case, pivots
+from springcad.kinds.lever_arm.case import Case, pivots
 from springcad.kinds.lever_arm.made import MadeJoint
 from springcad.kinds.lever_arm.mechanism import boundary, loads, response, stroke
 from springcad.result import Check, check

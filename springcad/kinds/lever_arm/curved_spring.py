@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from springcad.geometry.outline import Circle
 from springcad.geometry.outline_ops import profile_area
+from springcad.kinds.lever_arm.case import Case
 from springcad.kinds.lever_arm.curved_foot import Room
 from springcad.kinds.lever_arm.curved_part import clamp_shift, curved_profile, hub_radius
-from springcad.kinds.lever_arm.feasibility import Case
 from springcad.kinds.lever_arm.made import MadeSpring
 from springcad.kinds.lever_arm.omega import (
     OmegaCase,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.lever_arm.feasibility import Case
+from springcad.kinds.lever_arm.case import Case
 
 _ROUND_OFF = 1e-6
 """Share of a layer that is not worth another one."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from springcad.geometry.outline import Profile
 from springcad.geometry.outline_ops import profile_area
 from springcad.geometry.transform import rotate
-from springcad.kinds.lever_arm.feasibility import Case
+from springcad.kinds.lever_arm.case import Case
 from springcad.kinds.lever_arm.made import MadeSpring
 from springcad.kinds.lever_arm.sizing import SizedLeaf, elastic, size_leaf
 from springcad.kinds.lever_arm.spring_law import spring_law

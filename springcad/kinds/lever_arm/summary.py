@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.lasting import Loading
+from springcad.kinds.lever_arm.case import pivots
 from springcad.kinds.lever_arm.checks import PIVOTS, joint_checks, largest_pivot_force
-from springcad.kinds.lever_arm.feasibility import pivots
 from springcad.kinds.lever_arm.made import MadeJoint
 from springcad.kinds.lever_arm.mechanism import (
     Response,
