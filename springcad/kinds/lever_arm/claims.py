@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from typing import Literal
 
 from springcad.kinds.lever_arm.case import Case
+from springcad.kinds.lever_arm.changes import HIGH_END, KNOBS, SEARCH_DECIDES, turned
 from springcad.kinds.lever_arm.estimate import (
     SHEETS,
     STIFFNESS_ERROR,
@@ -48,7 +49,7 @@ def claims(case: Case, share: float = 1.0) -> Iterator[Check]:
     else:
         yield from _section(case, share)
         yield from _reach(case, share)
-    yield from _mechanism(case)
+    yield from _mechanism(case, share)
 
 
 def _section(case: Case, share: float) -> Iterator[Check]:
@@ -107,9 +108,7 @@ def _bound(case: Case, share: float) -> Iterator[Check]:
     """No spring stores more than σ²/6E in its enclosure's volume; leaves store far less."""
     if not case.stiffness or not math.isfinite(case.room):
         return
-    volume = case.count * case.room * math.pi * case.radius**2
-    dense = case.design_stress**2 / (2.0 * case.elastic_modulus)
-    most = 2.0 * _UTILISATION * dense * volume / case.deflection**2
+    most = _most_of_enclosure(case)
     always, best = _OMEGA_FOUND
     yield check(
         "stiffness of a full enclosure, upper bound", most if share == 1.0 else always * most, ">=",
@@ -119,12 +118,36 @@ def _bound(case: Case, share: float) -> Iterator[Check]:
     yield check(
         "stiffness that omega leaves reach, estimate", best * most, ">=", case.stiffness, "N/m",
         source=f"{best:.0%} of that bound at best, {always:.0%} nearly always, in trials",
-        remedy="more room, layers or stress, or less deflection; only the search can tell",
-        otherwise="warn",
+        remedy=_roomier(case, best) if share == 1.0 else "", otherwise="warn",
     )  # fmt: skip
 
 
-def _mechanism(case: Case) -> Iterator[Check]:
+def _most_of_enclosure(case: Case) -> float:
+    """Stiffness of a spring that fills its enclosure and bends, every fibre at its best [N/m]."""
+    volume = case.count * case.room * math.pi * case.radius**2
+    dense = case.design_stress**2 / (2.0 * case.elastic_modulus)
+    return 2.0 * _UTILISATION * dense * volume / case.deflection**2
+
+
+def _roomier(case: Case, best: float) -> str:
+    """What brings the estimate up to the wanted stiffness."""
+    found = turned(
+        case, KNOBS, lambda tried: best * _most_of_enclosure(tried) >= tried.stiffness,
+        "more room, layers or stress, or less deflection",
+    )  # fmt: skip
+    return f"{found} {SEARCH_DECIDES}"
+
+
+def _nearer(case: Case) -> str:
+    """The farthest pivot position at which the crank reaches the spring's deflection."""
+
+    def works(tried: Case) -> bool:
+        return not math.isnan(float(crank_angle(tried.lever, tried.pivot_high, tried.deflection)))
+
+    return turned(case, (HIGH_END,), works, "a lower high end of mechanism.pivot")
+
+
+def _mechanism(case: Case, share: float) -> Iterator[Check]:
     """Whether the spring is used at every pivot position, and what the pivot carries."""
     lever, s = case.lever, case.deflection
     angle = float(crank_angle(lever, case.pivot_high, s))
@@ -134,7 +157,7 @@ def _mechanism(case: Case) -> Iterator[Check]:
         yield check(
             "deflection of the spring reached, at the farthest pivot", reached, ">=", s, "m",
             source="the crank is at its dead angle before; the spring is not used fully there",
-            remedy="lower the high end of mechanism.pivot", otherwise="warn",
+            remedy=_nearer(case) if share == 1.0 else "", otherwise="warn",
         )  # fmt: skip
     if not case.max_pivot_force:
         return

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from springcad.kinds.feasible import advised, require_all
-from springcad.kinds.knobs import Knob, remedies
+from springcad.kinds.knobs import remedies
 from springcad.kinds.lever_arm.case import Case
+from springcad.kinds.lever_arm.changes import KNOBS, SEARCH_DECIDES, is_spec
 from springcad.kinds.lever_arm.claims import claims
 from springcad.result import Check
 
@@ -36,23 +37,6 @@ def failures(case: Case) -> tuple[str, ...]:
     )
 
 
-KNOBS = (
-    Knob("target.spring_deflection", "mm", 1e-3, "deflection"),
-    Knob("target.spring_stiffness", "N/mm", 1e3, "stiffness", upwards=False),
-    Knob("leaf.length", "mm", 1e-3, "length"),
-    Knob("leaf.sheet_thickness", "mm", 1e-3, "sheet"),
-    Knob("leaf.layers", "", 1.0, "layers"),
-    Knob("leaf.width", "mm", 1e-3, "width"),
-    Knob("leaf.count", "", 1.0, "count"),
-    Knob("envelope.height", "mm", 1e-3, "height"),
-    Knob("envelope.radius", "mm", 1e-3, "radius"),
-    Knob("the low end of mechanism.pivot", "mm", 1e-3, "pivot_low"),
-    Knob("mechanism.max_pivot_force", "N", 1.0, "max_pivot_force"),
-    Knob("material.design_stress", "MPa", 1e6, "design_stress", upwards=False),
-)
-"""What a user may change, most telling first. Raising a stress is not a cure."""
-
-
 def case_remedies(case: Case) -> tuple[str, ...]:
     """Changes of the spec after which every closed form holds with room for its error.
 
@@ -64,11 +48,11 @@ def case_remedies(case: Case) -> tuple[str, ...]:
     turned = remedies(
         case,
         KNOBS,
-        lambda tried: failures(tried) if _is_spec(case, tried) else (*broken, "rules of the spec"),
+        lambda tried: failures(tried) if is_spec(case, tried) else (*broken, "rules of the spec"),
     )
     changes = turned or tuple(_omissions(case))
     if case.shape == "omega":
-        return tuple(f"{change} (the search then decides)" for change in changes)
+        return tuple(f"{change} {SEARCH_DECIDES}" for change in changes)
     return changes
 
 
@@ -82,13 +66,3 @@ def _omissions(case: Case) -> Iterator[str]:
     for key, tried in without.items():
         if not failures(tried):
             yield f"take {key} out of the spec"
-
-
-def _is_spec(case: Case, tried: Case) -> bool:
-    """Whether a spec may say what a turned knob makes of the case."""
-    return (
-        tried.count > 0
-        and bool(tried.layers) == bool(case.layers)
-        and tried.pivot_low <= tried.pivot_high
-        and not (tried.length and tried.deflection > 0.5 * tried.length)
-    )
