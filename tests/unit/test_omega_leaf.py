@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from omega_cases import STEEL
+from lever_cases import STEEL
 
 from springcad.kinds.lever_arm.omega import (
     OmegaLeaf,

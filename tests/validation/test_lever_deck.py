@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fem_cases import calculix_prints, printed_vectors
-from omega_cases import POM, POM_LEAF, STEEL, STEEL_LEAF
+from lever_cases import POM, POM_LEAF, STEEL, STEEL_LEAF
 
 from springcad.cli.run import run
 from springcad.kinds.lever_arm.curved_judge import CLEAR

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from omega_cases import POM, POM_LEAF, STEEL, STEEL_LEAF
+from lever_cases import POM, POM_LEAF, STEEL, STEEL_LEAF
 from scipy.interpolate import CubicSpline
 
 from springcad.kinds.lever_arm import omega_search

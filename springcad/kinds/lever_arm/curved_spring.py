@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import root_scalar
+from scipy.optimize import brentq
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Circle
@@ -136,22 +136,18 @@ def _at_stiffness(case: Case, omega: OmegaCase, leaf: OmegaLeaf, layers: int) ->
         thickness = np.maximum(share * leaf.thickness_coefficients, omega.min_web)
         return replace(leaf, thickness_coefficients=thickness)
 
-    def stiffer(share: float) -> float:
-        """Stiffness over the wanted one, as a logarithm."""
-        force = float(omega_response(thinned(share), omega, width, end).force[0])
+    def excess(exponent: float) -> float:
+        """Stiffness over the wanted one, both as logarithms, at a share of the thickness."""
+        force = omega_response(thinned(np.exp(exponent)), omega, width, end).force[0]
         return float(np.log(force / (case.stiffness * case.deflection)))
 
-    least, excess = omega.min_web / float(leaf.thickness_coefficients.max()), stiffer(1.0)
-    if excess <= _TOLERANCE:
+    if excess(0.0) <= _TOLERANCE:
         return leaf
-    if stiffer(least) > 0.0:
-        raise too_stiff(case, layers, case.stiffness * float(np.exp(stiffer(least))))
-    # Where no web is at its least already, stiffness goes with the cube of the thickness.
-    guess = max(least, float(np.exp(-excess / 3.0)))
-    found = root_scalar(stiffer, x0=1.0, x1=guess, xtol=_TOLERANCE) if guess > least else None
-    if found is None or not found.converged or not least <= found.root <= 1.0:
-        found = root_scalar(stiffer, bracket=(least, 1.0), xtol=_TOLERANCE)
-    return thinned(found.root)
+    thinnest = float(np.log(omega.min_web / leaf.thickness_coefficients.max()))
+    least = excess(thinnest)
+    if least > 0.0:
+        raise too_stiff(case, layers, case.stiffness * float(np.exp(least)))
+    return thinned(np.exp(brentq(excess, thinnest, 0.0, xtol=_TOLERANCE)))
 
 
 def _shapes(leaf: OmegaLeaf, states: OmegaResponse) -> tuple[tuple[Floats, ...], ...]:

@@ -1,7 +1,8 @@
-"""Omega leaves that a search found once, for tests that are not about searching.
+"""Leaves and fittings that several tests of the lever arm share.
 
-Enclosure of 50 mm radius, 10 mm to both sides, corridor of 12 mm, in steel (210 GPa, 950 MPa) and
-POM (2.6 GPa, 90 MPa): the materials of paper 000, III-D.
+The omega leaves are stored results of the search: enclosure of 50 mm radius, 10 mm to both sides,
+corridor of 12 mm, in steel (210 GPa, 950 MPa) and POM (2.6 GPa, 90 MPa), the materials of paper
+000, III-D.
 """
 
 from __future__ import annotations
@@ -11,6 +12,19 @@ from dataclasses import replace
 import numpy as np
 
 from springcad.kinds.lever_arm.omega import OmegaCase, OmegaLeaf
+from springcad.kinds.lever_arm.straight import Fittings
+
+FITTINGS = Fittings(
+    pin_diameter=4e-3,
+    eye_wall=2e-3,
+    eye_fillet=1e-3,
+    root_fillet=1e-3,
+    min_web=1e-3,
+    block_length=12e-3,
+    block_height=0.0,
+    hole_count=2,
+    hole_diameter=4e-3,
+)
 
 STEEL = OmegaCase(
     enclosure_radius=50e-3,
