@@ -66,6 +66,9 @@ def curved_spring(
             case, topology, starts, seed, lambda tried, kind: omega_case(tried, fittings, kind),
             progress,
         )  # fmt: skip
+        if not changes:
+            claim = f"{error.claim}; nor does twice the radius or half the deflection"
+            raise InfeasibleError(claim, error.value, error.limit, error.unit) from error
         raise error.with_remedies(*changes) from error
     layers = layer_count(case, case.count * found.stiffness * case.sheet)
     progress("bending the leaf through its stroke")

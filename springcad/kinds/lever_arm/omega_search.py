@@ -129,6 +129,9 @@ def _polished(case: OmegaCase, linear: list[Solution], progress: Callable[[str],
     best = _best(found, 1, FEASIBLE)
     if not best:
         closest = min(found, key=lambda at: at.violation)
+        if not np.isfinite(closest.violation):
+            claim = f"leaves, of {len(found)}, that neither touch nor buckle on the nonlinear beam"
+            raise InfeasibleError(claim, 0.0, 1.0, "1")
         claim = "largest violation of a limit, as a share of it, on the nonlinear beam"
         raise InfeasibleError(claim, closest.violation, FEASIBLE, "1")
     return best[0]
