@@ -108,9 +108,9 @@ def _linear_search(
         claim = f"searches, of {len(found)}, that found a leaf within all limits"
         raise InfeasibleError(claim, 0.0, 1.0, "1")
     finished = [_continued(problem, case, at) for at in rough[:FINISHED]]
-    good = [*_best(finished, FINISHED, FEASIBLE), *rough[FINISHED:]] or rough
+    good = _best(finished, FINISHED, FEASIBLE) or rough[:FINISHED]
     values = sorted((stiffness(at) for at in found if at.violation <= ROUGH), reverse=True)
-    return good, OmegaSpread(len(found), np.array(values))
+    return [*good, *rough[FINISHED:]], OmegaSpread(len(found), np.array(values))
 
 
 def _polished(case: OmegaCase, linear: list[Solution], progress: Callable[[str], None]) -> Solution:
