@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 
 from springcad.errors import InfeasibleError
+from springcad.kinds.lever_arm.case import Case
 from springcad.kinds.lever_arm.design import make_joint
-from springcad.kinds.lever_arm.feasibility import Case, feasibility_checks
+from springcad.kinds.lever_arm.feasibility import feasibility_checks
 from springcad.kinds.lever_arm.inputs import case_of, lever_spec
 from springcad.kinds.lever_arm.sheet_leaf import closed_section, spring_section
 from springcad.kinds.lever_arm.sheet_mechanism import mechanism_section

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Mapping
 from typing import cast
 
 from springcad.geometry.outline_ops import profile_area
-from springcad.kinds.lever_arm.feasibility import Case, full_thickness, sheet_for
+from springcad.kinds.lever_arm.case import Case
+from springcad.kinds.lever_arm.estimate import full_thickness, sheet_for
 from springcad.kinds.lever_arm.made import MadeJoint
 from springcad.kinds.strength_sheet import life_steps
 from springcad.mechanics.leaf import (
