@@ -15,7 +15,6 @@ from springcad.kinds.roller_cam.remedies import (
     synthesis_remedies,
     within_stress,
 )
-from springcad.mechanics.contact import contact_modulus
 from springcad.result import Check, check
 
 TORQUE_TOLERANCE = 0.01
@@ -64,11 +63,14 @@ def uncertain_until(made: MadeJoint) -> float | None:
     return float(made.expected_angle[missed[-1]]) if len(missed) else None
 
 
-def pressure(made: MadeJoint) -> np.ndarray:
-    """Hertzian, roller of the element's material (A,) [Pa]."""
-    beam = made.joint.cantilever
-    modulus = contact_modulus(*(beam.elastic_modulus, beam.poisson_ratio) * 2)
-    return np.asarray(made.stroke.pressure(beam.width, modulus))
+def strip_room(made: MadeJoint) -> np.ndarray:
+    """Of the profile, from the end of the strip of contact to its own lower end (A,) [m].
+
+    Infinite where the roller is clear.
+    """
+    strips = made.strips
+    end = made.stroke.place + strips.middle + strips.half_width
+    return np.where(np.isfinite(end), made.drawn.curve.length - end, np.inf)
 
 
 def _torque(made: MadeJoint) -> Iterator[Check]:
@@ -132,6 +134,14 @@ def _contact(made: MadeJoint) -> Iterator[Check]:
             source="forward analysis; beyond it the cantilever cannot store more",
             remedy=contact_angle_remedy(angle, gamma),
         )  # fmt: skip
+    left = strip_room(made)
+    tightest = int(np.argmin(left))
+    yield check(
+        "profile beyond the strip of contact", float(left[tightest]), ">=", 0.0, "m",
+        source=f"least at {math.degrees(stroke.angle[tightest]):.4g} deg, where the strip is "
+        f"{2e3 * made.strips.half_width[tightest]:.3g} mm long",
+        remedy="raise joint.drum_radius, or make the cantilever stiffer",
+    )  # fmt: skip
     deepest = int(np.argmin(made.gap))
     depth = max(0.0, -float(made.gap[deepest]))
     yield check(
@@ -144,8 +154,8 @@ def _contact(made: MadeJoint) -> Iterator[Check]:
         return
     limit = PRESSURE_OVER_ULTIMATE * ultimate.value
     yield check(
-        "contact pressure on the profile", float(np.max(pressure(made))), "<=", limit, "Pa",
-        source=f"Hertz; {PRESSURE_OVER_ULTIMATE:g} times the tensile strength",
+        "contact pressure on the profile", float(np.max(made.strips.peak_pressure)), "<=", limit,
+        "Pa", source=f"drawn profile; {PRESSURE_OVER_ULTIMATE:g} times the tensile strength",
         remedy="a larger joint.roller_radius or a thicker sheet lowers it", otherwise="warn",
     )  # fmt: skip
 

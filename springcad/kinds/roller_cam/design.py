@@ -45,6 +45,7 @@ from springcad.kinds.roller_cam.remedies import synthesis_remedies
 from springcad.kinds.roller_cam.sizing import size_cantilever
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.roller_cam.stepwise import distance, march, printed
+from springcad.kinds.roller_cam.strip import roller_strips
 from springcad.kinds.roller_cam.summary import summarise
 from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
 from springcad.kinds.roller_cam.tip import linear_tip
@@ -148,6 +149,7 @@ def make_joint(
         element=element,
         drawn=drawn,
         stroke=stroke,
+        strips=roller_strips(joint, drawn.curve, stroke),
         expected_angle=_expected(law, stroke, correction),
         gap=least_gap(joint, drawn.curve, forward(joint, drawn.curve, angles)),
         sensitivity=sensitivity,

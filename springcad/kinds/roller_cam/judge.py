@@ -136,7 +136,7 @@ def _comparisons(
     yield compared(
         "contact pressure", "Pa", reported("contact_pressure_Pa"),
         lambda press: contact_pressure(element, press, joint.outline), PRESSURE_TOLERANCE,
-        "Hertz; elements of a block pressed on the profile as drawn",
+        "elastic strip; elements of a block pressed on the profile as drawn",
     )  # fmt: skip
 
 
