@@ -12,15 +12,10 @@ import pytest
 
 from springcad.errors import InfeasibleError
 from springcad.kinds import KINDS
-from springcad.kinds.roller_cam.feasibility import (
-    Case,
-    end_stress,
-    feasibility_checks,
-    require_feasible,
-    required_arm,
-    tip_stiffness,
-)
+from springcad.kinds.roller_cam.case import Case
+from springcad.kinds.roller_cam.feasibility import feasibility_checks, require_feasible
 from springcad.kinds.roller_cam.inputs import case_of
+from springcad.kinds.roller_cam.limits import end_stress, required_arm, tip_stiffness
 from springcad.kinds.roller_cam.remedies import synthesis_remedies, within_stress
 from springcad.kinds.roller_cam.synthesis import synthesise
 from springcad.kinds.roller_cam.tip import linear_tip

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.outline_ops import profile_area, profile_faults
+from springcad.kinds.roller_cam.case import Case
 from springcad.kinds.roller_cam.compensation import JUDGED_FROM, Compensated, compensate
 from springcad.kinds.roller_cam.correction import Correction, correction_of, followed_law
 from springcad.kinds.roller_cam.curve import curve_through
@@ -28,7 +29,7 @@ from springcad.kinds.roller_cam.element import (
     element_profile,
     first_place,
 )
-from springcad.kinds.roller_cam.feasibility import Case, require_feasible
+from springcad.kinds.roller_cam.feasibility import require_feasible
 from springcad.kinds.roller_cam.forward import (
     Stroke,
     forward,

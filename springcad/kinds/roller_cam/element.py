@@ -40,8 +40,8 @@ MOUNTED: dict[Mounting, str] = {
 """The same for people."""
 
 OVERHANG = 0.1
-"""The profile goes on, straight above its first contact as far as there is room and round
-(``_lower_end``) below its last, by this share of the roller's radius: the contact strip has a width."""
+"""The profile goes on by this share of the roller's radius, straight above its first contact as far
+as there is room and round below its last (``_lower_end``): the strip of contact has a width."""
 _POINTS = 400
 
 

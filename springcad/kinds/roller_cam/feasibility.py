@@ -7,99 +7,31 @@ A case that passes all may still have none, because the profile may fold back or
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.feasible import advised, require_all
 from springcad.kinds.interpolation import ROUND_OFF
-from springcad.kinds.knobs import Knob, remedies
-from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
-from springcad.kinds.roller_cam.part import roller_contact
-from springcad.kinds.roller_cam.tip import linear_tip
-from springcad.kinds.target_law import Law
-from springcad.mechanics.section import SHEAR_CORRECTION, area
+from springcad.kinds.knobs import remedies
+from springcad.kinds.roller_cam.case import Case, knobs_of
+from springcad.kinds.roller_cam.limits import (
+    end_stress,
+    lowest_point,
+    required_arm,
+    tip_stiffness,
+)
 from springcad.result import Check, check
 
 Floats = NDArray[np.float64]
 
-ANGLES = 200
-"""Angles at which the law is looked at."""
 ESTIMATE_ERROR = 0.03
 """Share by which the estimate of the stress may be wrong; measured: 0.9 to 1.4 %, too high."""
 DRUM_ROOM = 1.08
 """Drum radius over the limiting one that remedies aim at: nearer to it the roller is so close to
 the tip at the end that the contact part's yielding decides."""
 _DRUM = "drum radius"
-_CONTACTS = np.geomspace(1e-6, 0.5 * math.pi, 300)
-"""Contact angles round the roller between which the one that holds the energy is interpolated."""
-
-
-@dataclass(frozen=True)
-class Case:
-    """One group to be judged, SI.
-
-    Attributes:
-        law: of the group.
-        deflection: largest angle; may be below that of the law.
-        joint: one element and its roller; of a cantilever that is to be sized, the stiffest.
-        is_sized: whether the cantilever is to be sized.
-        least_height: of the cantilever.
-        design_stress, yield_strength: allowed in bending, and of the material.
-        clearance: least gap between roller and cantilever.
-        torque_share: by which all torques of the law are multiplied.
-    """
-
-    law: Law
-    deflection: float
-    joint: Joint
-    is_sized: bool
-    least_height: float
-    design_stress: float
-    yield_strength: float
-    clearance: float
-    torque_share: float = 1.0
-
-    @property
-    def wanted(self) -> Law:
-        """The law with its deflection and its torques as they are in this case."""
-        law, share = self.law, self.torque_share
-        return replace(
-            law,
-            deflection=self.deflection,
-            torque=lambda angle: share * law.torque(angle),
-            energy=lambda angle: share * law.energy(angle),
-            stiffness=lambda angle: share * law.stiffness(angle),
-            points=law.points * [1.0, share],
-        )
-
-    @property
-    def angle(self) -> Floats:
-        """Angles beyond the dead zone (ANGLES,)."""
-        dead = self.law.dead_zone
-        return dead + (self.deflection - dead) * np.arange(1, ANGLES + 1) / ANGLES
-
-
-def tip_stiffness(cantilever: Cantilever) -> float:
-    """Force across the tip per deflection, by bending, shear and the turning of the clamp (N/m).
-
-    001 counts bending only, which is 3 % stiffer for its cantilever.
-    """
-    sheared = SHEAR_CORRECTION * cantilever.shear_modulus
-    section = float(area(cantilever.width, 0.5 * cantilever.height))
-    clamp = cantilever.root_compliance * cantilever.length**2
-    return 1.0 / (1.0 / cantilever.tip_stiffness + cantilever.length / (sheared * section) + clamp)
-
-
-def required_arm(torque: Floats, energy: Floats, stiffness: float) -> Floats:
-    """Least arm with which a tip of this stiffness gives the torque holding the energy (m).
-
-    With the force F = τ/arm it holds at least F²/(2k), when the roller is right over the tip.
-    Nan or inf for an energy too small to count.
-    """
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return torque / np.sqrt(2.0 * stiffness * energy)
 
 
 def feasibility_checks(case: Case) -> tuple[Check, ...]:
@@ -215,24 +147,6 @@ def _stress(case: Case, torque: float, energy: float) -> tuple[Check, ...]:
     )  # fmt: skip
 
 
-def end_stress(joint: Joint, angle: float, torque: float, energy: float) -> float:
-    """Stress at the clamp where the cantilever gives the torque holding the energy (Pa).
-
-    By small rotations; inf where no contact gives it.
-    """
-    turned = np.full_like(_CONTACTS, angle)
-    touch = roller_contact(joint.roller, turned, _CONTACTS)
-    force = torque / (touch.reach * -touch.normal[:, 1])
-    state = linear_tip(joint.cantilever)(touch.point, force[:, None] * touch.normal)
-    beyond = np.flatnonzero((state.energy >= energy) & (state.energy > 0.0))
-    last = int(beyond[-1]) if len(beyond) else -1
-    if last < 0 or last + 1 == len(_CONTACTS):
-        return math.inf
-    rows = slice(last, last + 2)
-    share = np.interp(-math.log(energy), -np.log(state.energy[rows]), [0.0, 1.0])
-    return float(state.stress[last] + share * (state.stress[last + 1] - state.stress[last]))
-
-
 def _clearance(case: Case) -> tuple[Check, ...]:
     roller, angle = case.joint.roller, case.deflection
     height = case.least_height if case.is_sized else case.joint.cantilever.height
@@ -245,38 +159,11 @@ def _clearance(case: Case) -> tuple[Check, ...]:
     )  # fmt: skip
 
 
-def lowest_point(roller: Roller, angle: float) -> float:
-    """Height of the turned roller's lowest point over the axis of the cantilever at rest (m)."""
-    return roller.offset - roller.drum_radius * math.sin(angle) - roller.radius * math.cos(angle)
-
-
 def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.4g} deg"
 
 
-KNOBS = (
-    Knob("joint.drum_radius", "mm", 1e-3, "joint.roller.drum_radius"),
-    Knob("joint.roller_offset", "mm", 1e-3, "joint.roller.offset"),
-    Knob("joint.roller_radius", "mm", 1e-3, "joint.roller.radius"),
-    Knob("target.deflection", "deg", math.pi / 180.0, "deflection", upwards=False),
-    Knob("all torques of target.law", "%", 0.01, "torque_share", upwards=False),
-    Knob("material.design_stress", "MPa", 1e6, "design_stress", upwards=False),
-)
-"""What a user may change, most telling first. Raising a stress is not a cure."""
-CANTILEVER_KNOBS = (
-    Knob("cantilever.length", "mm", 1e-3, "joint.cantilever.length"),
-    Knob("cantilever.height", "mm", 1e-3, "joint.cantilever.height"),
-    Knob("envelope.thickness", "mm", 1e-3, "joint.cantilever.width"),
-)
-"""The same for a cantilever that is given."""
-
-
 _LAW = "change target.law there: no other number within a factor of two helps"
-
-
-def knobs_of(case: Case) -> tuple[Knob, ...]:
-    """What may be changed in this case."""
-    return KNOBS if case.is_sized else KNOBS + CANTILEVER_KNOBS
 
 
 def case_remedies(case: Case) -> tuple[str, ...]:

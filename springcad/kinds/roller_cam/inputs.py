@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from springcad.kinds.given_law import rise_of
-from springcad.kinds.roller_cam.feasibility import Case
+from springcad.kinds.roller_cam.case import Case
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.target_law import Law, law_of

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.geometry.outline import Profile
+from springcad.kinds.roller_cam.case import Case
 from springcad.kinds.roller_cam.compensation import Compensated
 from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.drawn import DrawnProfile
 from springcad.kinds.roller_cam.element import ElementGeometry
-from springcad.kinds.roller_cam.feasibility import Case
 from springcad.kinds.roller_cam.forward import Stroke
 from springcad.kinds.roller_cam.joint import Joint
 from springcad.kinds.roller_cam.spec import RollerCamSpec

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 from springcad.errors import InfeasibleError
 from springcad.kinds.knobs import Knob, changed, value_of
-from springcad.kinds.roller_cam.feasibility import Case, failures, knobs_of
+from springcad.kinds.roller_cam.case import Case, knobs_of
+from springcad.kinds.roller_cam.feasibility import failures
 from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
 from springcad.kinds.roller_cam.tip import linear_tip
 

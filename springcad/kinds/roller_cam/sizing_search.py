@@ -16,8 +16,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.kinds.roller_cam.feasibility import lowest_point
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
+from springcad.kinds.roller_cam.limits import lowest_point
 from springcad.kinds.roller_cam.part import STATION_LIMITS, part_with, roller_contact
 from springcad.kinds.roller_cam.synthesis import rises_at_once
 from springcad.kinds.roller_cam.tip import TipModel, linear_tip
