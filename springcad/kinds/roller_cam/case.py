@@ -30,6 +30,7 @@ class Case:
         least_height: of the cantilever.
         design_stress, yield_strength: allowed in bending, and of the material.
         clearance: least gap between roller and cantilever.
+        foot_fillet: radius between cantilever and contact part, below the profile's lower end.
         torque_share: by which all torques of the law are multiplied.
     """
 
@@ -41,6 +42,7 @@ class Case:
     design_stress: float
     yield_strength: float
     clearance: float
+    foot_fillet: float
     torque_share: float = 1.0
 
     @property

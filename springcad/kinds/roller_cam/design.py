@@ -37,7 +37,7 @@ from springcad.kinds.roller_cam.forward import (
     offset_sensitivity,
     roller_friction,
 )
-from springcad.kinds.roller_cam.inputs import case_of, group_law, joint_of, roller_spec
+from springcad.kinds.roller_cam.inputs import case_of, foot_fillet, group_law, joint_of, roller_spec
 from springcad.kinds.roller_cam.joint import Joint
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.part import exact_part, linear_part
@@ -62,8 +62,6 @@ Floats = NDArray[np.float64]
 
 ANGLES = 200
 """Angles at which the drawn profile is analysed: its arcs waver, and none may be passed over."""
-FOOT_FILLET = 1e-3
-"""Radius between cantilever and contact part (m), at least the smallest of the process."""
 ROUNDING = 0.05e-3
 """Radius of outer corners (m): the first contact lies near the upper one."""
 _BY_ENERGY = "use method: energy, which needs no steps"
@@ -195,11 +193,11 @@ def _expected(law: Law, stroke: Stroke, correction: Correction | None) -> Floats
 
 
 def _dimensions(spec: RollerCamSpec) -> ElementDimensions:
-    smallest, mount = spec.process.rules.min_inside_radius, spec.mount
+    mount = spec.mount
     return ElementDimensions(
         thickness=spec.contact_part.thickness,
         root_fillet=spec.cantilever.root_fillet,
-        foot_fillet=max(FOOT_FILLET, smallest),
+        foot_fillet=foot_fillet(spec),
         rounding=ROUNDING,
         gap=spec.process.rules.min_gap,
         mount=Mount(

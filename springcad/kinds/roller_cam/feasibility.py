@@ -1,7 +1,8 @@
 """Can any profile give the law? Closed forms only, before any profile is sought.
 
-Each limit but the stress, which is an estimate, is necessary: a case that fails one has no design.
-A case that passes all may still have none, because the profile may fold back or be undercut.
+Each limit but the stress, which is an estimate, is necessary: a case that fails one has no design
+that bears its strip of contact to the end. A case that passes all may still have none, because the
+profile may fold back or be undercut.
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ from numpy.typing import NDArray
 from springcad.kinds.feasible import advised, require_all
 from springcad.kinds.interpolation import ROUND_OFF
 from springcad.kinds.knobs import remedies
-from springcad.kinds.roller_cam.case import Case, knobs_of
+from springcad.kinds.roller_cam.case import ANGLES, Case, knobs_of
 from springcad.kinds.roller_cam.limits import (
+    LEAST_OVERRUN,
     end_stress,
     lowest_point,
     required_arm,
@@ -28,10 +30,12 @@ Floats = NDArray[np.float64]
 
 ESTIMATE_ERROR = 0.03
 """Share by which the estimate of the stress may be wrong; measured: 0.9 to 1.4 %, too high."""
-DRUM_ROOM = 1.08
+DRUM_ROOM = 1.06
 """Drum radius over the limiting one that remedies aim at: nearer to it the roller is so close to
-the tip at the end that the contact part's yielding decides."""
+the tip at the end, and so nearly as round the profile, that the contact part's yielding decides
+whether the strip of contact at full stroke still lies on it."""
 _DRUM = "drum radius"
+_GAP = "gap between roller and cantilever"
 
 
 def feasibility_checks(case: Case) -> tuple[Check, ...]:
@@ -65,13 +69,12 @@ def _checks(case: Case) -> tuple[Check, ...]:
     law = (*_material(case), *_law(angle, torque, stiffness))
     if any(claim.status == "fail" for claim in law):
         return law
-    energy = wanted.energy(angle)
     held = (
-        *_energy(case, angle, torque, energy),
+        *_energy(case),
         *_slope(case, float(wanted.stiffness(np.array([wanted.dead_zone]))[0])),
     )
     if all(claim.status == "pass" for claim in held):
-        held += _stress(case, float(torque[-1]), float(energy[-1]))
+        held += _stress(case, float(torque[-1]), float(wanted.energy(angle)[-1]))
     return (*law, *held, *_clearance(case))
 
 
@@ -102,8 +105,11 @@ def _law(angle: Floats, torque: Floats, stiffness: Floats) -> tuple[Check, ...]:
     return (positive, rising)
 
 
-def _energy(case: Case, angle: Floats, torque: Floats, energy: Floats) -> tuple[Check, ...]:
+def _energy(case: Case) -> tuple[Check, ...]:
     """The cantilever must not hold more than the law has stored; the roller is right over it."""
+    wanted, rest = case.wanted, case.law.dead_zone
+    angle = rest + (LEAST_OVERRUN * case.deflection - rest) * np.arange(1, ANGLES + 1) / ANGLES
+    torque, energy = wanted.torque(angle), wanted.energy(angle)
     stiffness = tip_stiffness(case.joint.cantilever)
     roller = case.joint.roller
     arm = required_arm(torque, energy, stiffness)
@@ -115,9 +121,9 @@ def _energy(case: Case, angle: Floats, torque: Floats, energy: Floats) -> tuple[
         check(
             f"{_DRUM}, for the energy at {_degrees(angle[worst])}", roller.drum_radius, ">=",
             float(radius[worst]), "m",
-            source=f"law stores {1e3 * energy[worst]:.4g} N*mm there; F = "
-            f"{torque[worst] / reach:.4g} N needs at least {1e3 * held:.4g} N*mm in a cantilever "
-            f"with k = {1e-3 * stiffness:.4g} N/mm",
+            source=f"the profile goes on to {LEAST_OVERRUN:g} of the deflection; law stores "
+            f"{1e3 * energy[worst]:.4g} N*mm there; F = {torque[worst] / reach:.4g} N needs at "
+            f"least {1e3 * held:.4g} N*mm in a cantilever with k = {1e-3 * stiffness:.4g} N/mm",
         ),
     )  # fmt: skip
 
@@ -152,7 +158,7 @@ def _clearance(case: Case) -> tuple[Check, ...]:
     height = case.least_height if case.is_sized else case.joint.cantilever.height
     gap = lowest_point(roller, angle) - 0.5 * height
     return (
-        check(f"gap between roller and cantilever, at {_degrees(angle)}", gap, ">=",
+        check(f"{_GAP}, at {_degrees(angle)}", gap, ">=",
               case.clearance, "m",
               source="y0 - R sin - r cos - h/2, the cantilever straight; smallest gap of the "
               "process"),
@@ -183,9 +189,15 @@ def case_remedies(case: Case) -> tuple[str, ...]:
 
 def _without_room(case: Case) -> tuple[str, ...]:
     """Names of the checks that fail, or pass by less than the closed forms are sure of."""
+
+    def has_room(claim: Check) -> bool:
+        if claim.name.startswith(_DRUM):
+            return claim.value >= DRUM_ROOM * claim.limit
+        # The profile may end as low as the roller comes, and the fillet is below it.
+        return not claim.name.startswith(_GAP) or claim.value >= case.foot_fillet
+
     return tuple(
         claim.name.partition(",")[0]
         for claim in _checks(case)
-        if claim.status != "pass"
-        or (claim.name.startswith(_DRUM) and claim.value < DRUM_ROOM * claim.limit)
+        if claim.status != "pass" or not has_room(claim)
     )

@@ -14,6 +14,9 @@ from springcad.mechanics.section import SHEAR_CORRECTION, area
 
 Floats = NDArray[np.float64]
 
+LEAST_OVERRUN = 1.03
+"""Share of the deflection up to which the cantilever must be able to follow the law: the strip of
+contact at full stroke needs a profile on both sides of it."""
 _CONTACTS = np.geomspace(1e-6, 0.5 * math.pi, 300)
 """Contact angles round the roller between which the one that holds the energy is interpolated."""
 
