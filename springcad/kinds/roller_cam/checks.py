@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.remedies import (
-    contact_angle_remedy,
-    interference_remedy,
+    INTERFERENCE,
+    bears_roller,
     synthesis_remedies,
     within_stress,
 )
@@ -21,8 +22,6 @@ TORQUE_TOLERANCE = 0.01
 """Largest deviation from the law, over the full torque; relative to the law it is a warning."""
 STRESS_TOLERANCE = 0.01
 """Stress counts as met within this share: the closed forms allow for as much."""
-INTERFERENCE = 2e-6
-"""Depth to which the calculated roller may cut into the profile beside its contact (m)."""
 LARGEST_CORRECTION = 2.0
 """Factor of the law's angles beyond which a curve from elsewhere is hardly of the same joint."""
 PRESSURE_OVER_ULTIMATE = 1.6
@@ -129,26 +128,29 @@ def _contact(made: MadeJoint) -> Iterator[Check]:
     if len(touching):
         worst = touching[int(np.argmax(stroke.gamma[touching]))]
         gamma, angle = float(stroke.gamma[worst]), float(stroke.angle[worst])
-        yield check(
+        claim = check(
             "contact angle round the roller", gamma, "<=", 0.5 * math.pi, "rad",
-            source="forward analysis; beyond it the cantilever cannot store more",
-            remedy=contact_angle_remedy(angle, gamma),
+            source=f"forward analysis, largest at {math.degrees(angle):.4g} deg; beyond it the "
+            "cantilever cannot store more",
         )  # fmt: skip
+        yield _with_profile_remedy(claim, made, f"contact angle at {math.degrees(angle):.4g} deg")
     left = strip_room(made)
     tightest = int(np.argmin(left))
-    yield check(
+    where = f"{math.degrees(stroke.angle[tightest]):.4g} deg"
+    claim = check(
         "profile beyond the strip of contact", float(left[tightest]), ">=", 0.0, "m",
-        source=f"least at {math.degrees(stroke.angle[tightest]):.4g} deg, where the strip is "
+        source=f"least at {where}, where the strip is "
         f"{2e3 * made.strips.half_width[tightest]:.3g} mm long",
-        remedy="raise joint.drum_radius, or make the cantilever stiffer",
     )  # fmt: skip
+    yield _with_profile_remedy(claim, made, f"strip at {where}")
     deepest = int(np.argmin(made.gap))
     depth = max(0.0, -float(made.gap[deepest]))
-    yield check(
+    where = f"{math.degrees(stroke.angle[deepest]):.4g} deg"
+    claim = check(
         "interference of roller and profile in the stroke", depth, "<=", INTERFERENCE, "m",
-        source="smallest distance along the whole profile at every angle",
-        remedy=interference_remedy(float(stroke.angle[deepest]), depth),
+        source=f"smallest distance along the whole profile, at {where}",
     )  # fmt: skip
+    yield _with_profile_remedy(claim, made, f"roller cuts the profile at {where}")
     ultimate = made.spec.material.values.ultimate_strength
     if ultimate is None:
         return
@@ -158,6 +160,17 @@ def _contact(made: MadeJoint) -> Iterator[Check]:
         "Pa", source=f"drawn profile; {PRESSURE_OVER_ULTIMATE:g} times the tensile strength",
         remedy="a larger joint.roller_radius or a thicker sheet lowers it", otherwise="warn",
     )  # fmt: skip
+
+
+def _with_profile_remedy(claim: Check, made: MadeJoint, where: str) -> Check:
+    """The claim; if it fails with changes that were tried, else with what was not."""
+    if claim.status == "pass":
+        return claim
+    if made.spec.compensation != "compliance":
+        return replace(claim, remedy=f"{where}: {torque_remedy(made)}")
+    tried = "; or ".join(synthesis_remedies(made.case, bears_roller(made.case)))
+    remedy = tried or "raise joint.drum_radius, or smooth target.law there; neither was tried"
+    return replace(claim, remedy=f"{where}: {remedy}")
 
 
 def _strength(made: MadeJoint) -> Iterator[Check]:
