@@ -210,7 +210,7 @@ def test_extreme_numbers_end_in_a_verdict(law: str) -> None:
 def test_the_remedies_for_too_small_a_drum_are_those_one_would_think_of() -> None:
     remedies = refusal("paper", "joint.drum_radius=24 mm").remedies
     assert any(
-        remedy.startswith("raise joint.drum_radius from 24 to ≥ 27.8 mm") for remedy in remedies
+        remedy.startswith("raise joint.drum_radius from 24 to ≥ 28.3 mm") for remedy in remedies
     )
     assert any(remedy.startswith("raise cantilever.height from 4.9") for remedy in remedies)
 

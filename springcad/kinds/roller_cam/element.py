@@ -20,7 +20,6 @@ from springcad.geometry.outline import Arc, Circle, Curve, Line, Outline, Profil
 from springcad.kinds.roller_cam.curve import ProfileCurve
 from springcad.kinds.roller_cam.joint import Cantilever
 from springcad.kinds.roller_cam.synthesis import ContactProfile
-from springcad.mechanics.contact import contact_modulus, half_width
 
 Floats = NDArray[np.float64]
 
@@ -40,10 +39,10 @@ MOUNTED: dict[Mounting, str] = {
 }
 """The same for people."""
 
-OVERHANG, WIDEST = 0.1, 0.3
-"""The profile goes on by the first share of the roller's radius, straight above its first contact
-as far as there is room and round (``_lower_end``) below its last. There it goes on by half of the
-last strip of contact, if that is more, up to the second share."""
+OVERHANG = 0.1
+"""The profile goes on by this share of the roller's radius, straight above its first contact as far
+as there is room and round below its last (``_lower_end``): the strip of contact has a width. It is
+fixed, as an end that changes with the strip would change the compliance in its turn."""
 _POINTS = 400
 
 
@@ -176,11 +175,7 @@ def first_place(profile: ContactProfile, dimensions: ElementDimensions) -> float
 
 def last_place(profile: ContactProfile) -> float:
     """Place of the profile's lower end, beyond its last contact [m]."""
-    flank, beam, radius = profile.flank, profile.joint.cantilever, profile.joint.roller.radius
-    modulus = contact_modulus(*(beam.elastic_modulus, beam.poisson_ratio) * 2)
-    last = (flank.force[-1], beam.width, flank.relative_curvature[-1], modulus)
-    beyond = np.clip(half_width(*last), OVERHANG * radius, WIDEST * radius)
-    return profile.curve.length + float(beyond)
+    return profile.curve.length + OVERHANG * profile.joint.roller.radius
 
 
 def _lower_end(curve: ProfileCurve, beyond: Floats) -> tuple[Floats, Floats]:

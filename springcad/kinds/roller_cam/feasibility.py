@@ -30,7 +30,7 @@ Floats = NDArray[np.float64]
 
 ESTIMATE_ERROR = 0.03
 """Share by which the estimate of the stress may be wrong; measured: 0.9 to 1.4 %, too high."""
-DRUM_ROOM = 1.06
+DRUM_ROOM = 1.08
 """Drum radius over the limiting one that remedies aim at: nearer to it the roller is so close to
 the tip at the end, and so nearly as round the profile, that the contact part's yielding decides
 whether the strip of contact at full stroke still lies on it."""
