@@ -64,7 +64,7 @@ def test_the_joint_as_made_breaks_none() -> None:
 
 
 def test_beyond_the_level_end_of_the_profile_the_contact_passes_under_the_roller() -> None:
-    """The profile ends level at most in the frame of the tip: 90 deg and the tip's turn bound it."""
+    """The profile ends level at most, seen from the tip: 90 deg and the tip's turn bound it."""
     joint = turned_by(1.08)
     claim = claim_of(joint, "contact angle round the roller")
     tip = abs(float(joint.stroke.tip.rotation[-1]))
