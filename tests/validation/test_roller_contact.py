@@ -23,7 +23,8 @@ from springcad.kinds.roller_cam.contact_pad import contact_pressure
 from springcad.kinds.roller_cam.element import element_geometry, element_profile
 from springcad.kinds.roller_cam.element_mesh import COARSE, FINE, Density
 from springcad.kinds.roller_cam.forward import forward
-from springcad.mechanics.contact import contact_modulus
+from springcad.kinds.roller_cam.strip import roller_strips
+from springcad.mechanics.contact import contact_modulus, peak_pressure
 
 
 def test_the_torque_does_the_work_that_the_element_stores() -> None:
@@ -78,7 +79,8 @@ def test_beam_on_a_turning_root_is_confirmed_for_a_mount_in_a_pocket() -> None:
     assert np.all(stroke.torque < 0.95 * clamped.torque)
 
 
-def test_pressure_of_a_block_is_that_of_hertz_where_the_curvature_changes_little() -> None:
+def test_pressure_of_a_block_is_that_of_the_strip() -> None:
+    """And both are Hertz's, where the curvature changes little."""
     profile, size = rigid_profile(), dimensions(3e-3)
     geometry = element_geometry(profile, size)
     element = element_contact(geometry, JOINT.roller, COARSE)
@@ -88,8 +90,10 @@ def test_pressure_of_a_block_is_that_of_hertz_where_the_curvature_changes_little
     modulus = contact_modulus(*(beam.elastic_modulus, beam.poisson_ratio) * 2)
     compliance = profile_compliance(profile, size).at_place
     stroke = forward(JOINT, profile.curve, np.array([press.angle]), compliance=compliance)
-    hertz = float(stroke.pressure(beam.width, modulus)[0])
-    assert contact_pressure(element, press, outline) == pytest.approx(hertz, rel=0.01)
+    (strip,) = roller_strips(JOINT, profile.curve, stroke).peak_pressure
+    assert contact_pressure(element, press, outline) == pytest.approx(strip, rel=0.01)
+    (hertz,) = peak_pressure(stroke.normal_force, beam.width, stroke.curvature, modulus)
+    assert strip == pytest.approx(hertz, rel=0.01)
 
 
 def test_stress_beyond_the_notch_is_the_beams() -> None:

@@ -288,7 +288,7 @@ def test_pressure_is_hertz_with_both_curvatures() -> None:
     profile = profile_of("exponential")
     modulus = contact_modulus(206e9, 0.29, 210e9, 0.3)
     stroke = forward(PAPER, profile.curve, profile.flank.angle[5:-5])
-    here = stroke.pressure(CANTILEVER.width, modulus)
+    here = peak_pressure(stroke.normal_force, CANTILEVER.width, stroke.curvature, modulus)
     there = hertz_pressure(profile.flank, CANTILEVER.width, modulus)[5:-5]
     np.testing.assert_allclose(here, there, rtol=1e-5)
     alone = peak_pressure(stroke.normal_force, CANTILEVER.width, 1.0 / 4e-3, modulus)

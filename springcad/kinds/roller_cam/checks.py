@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,20 +12,17 @@ from springcad.kinds.pressure import PRESSURE_OVER_ULTIMATE
 from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.remedies import (
-    contact_angle_remedy,
-    interference_remedy,
+    INTERFERENCE,
+    bears_roller,
     synthesis_remedies,
     within_stress,
 )
-from springcad.mechanics.contact import contact_modulus
 from springcad.result import Check, check
 
 TORQUE_TOLERANCE = 0.01
 """Largest deviation from the law, over the full torque; relative to the law it is a warning."""
 STRESS_TOLERANCE = 0.01
 """Stress counts as met within this share: the closed forms allow for as much."""
-INTERFERENCE = 2e-6
-"""Depth to which the calculated roller may cut into the profile beside its contact (m)."""
 LARGEST_CORRECTION = 2.0
 """Factor of the law's angles beyond which a curve from elsewhere is hardly of the same joint."""
 
@@ -63,11 +61,14 @@ def uncertain_until(made: MadeJoint) -> float | None:
     return float(made.expected_angle[missed[-1]]) if len(missed) else None
 
 
-def pressure(made: MadeJoint) -> np.ndarray:
-    """Hertzian, roller of the element's material (A,) [Pa]."""
-    beam = made.joint.cantilever
-    modulus = contact_modulus(*(beam.elastic_modulus, beam.poisson_ratio) * 2)
-    return np.asarray(made.stroke.pressure(beam.width, modulus))
+def strip_room(made: MadeJoint) -> np.ndarray:
+    """Of the profile, from the end of the strip of contact to its own lower end (A,) [m].
+
+    Infinite where the roller is clear.
+    """
+    strips = made.strips
+    end = made.stroke.place + strips.middle + strips.half_width
+    return np.where(np.isfinite(end), made.drawn.curve.length - end, np.inf)
 
 
 def _torque(made: MadeJoint) -> Iterator[Check]:
@@ -126,27 +127,49 @@ def _contact(made: MadeJoint) -> Iterator[Check]:
     if len(touching):
         worst = touching[int(np.argmax(stroke.gamma[touching]))]
         gamma, angle = float(stroke.gamma[worst]), float(stroke.angle[worst])
-        yield check(
+        claim = check(
             "contact angle round the roller", gamma, "<=", 0.5 * math.pi, "rad",
-            source="forward analysis; beyond it the cantilever cannot store more",
-            remedy=contact_angle_remedy(angle, gamma),
+            source=f"forward analysis, largest at {math.degrees(angle):.4g} deg; beyond it the "
+            "cantilever cannot store more",
         )  # fmt: skip
+        yield _with_profile_remedy(claim, made, f"contact angle at {math.degrees(angle):.4g} deg")
+    left = strip_room(made)
+    tightest = int(np.argmin(left))
+    where = f"{math.degrees(stroke.angle[tightest]):.4g} deg"
+    claim = check(
+        "profile beyond the strip of contact", float(left[tightest]), ">=", 0.0, "m",
+        source=f"least at {where}, where the strip is "
+        f"{2e3 * made.strips.half_width[tightest]:.3g} mm long",
+    )  # fmt: skip
+    yield _with_profile_remedy(claim, made, f"strip at {where}")
     deepest = int(np.argmin(made.gap))
     depth = max(0.0, -float(made.gap[deepest]))
-    yield check(
+    where = f"{math.degrees(stroke.angle[deepest]):.4g} deg"
+    claim = check(
         "interference of roller and profile in the stroke", depth, "<=", INTERFERENCE, "m",
-        source="smallest distance along the whole profile at every angle",
-        remedy=interference_remedy(float(stroke.angle[deepest]), depth),
+        source=f"smallest distance along the whole profile, at {where}",
     )  # fmt: skip
+    yield _with_profile_remedy(claim, made, f"roller cuts the profile at {where}")
     ultimate = made.spec.material.values.ultimate_strength
     if ultimate is None:
         return
     limit = PRESSURE_OVER_ULTIMATE * ultimate.value
     yield check(
-        "contact pressure on the profile", float(np.max(pressure(made))), "<=", limit, "Pa",
-        source=f"Hertz; {PRESSURE_OVER_ULTIMATE:g} times the tensile strength",
+        "contact pressure on the profile", float(np.max(made.strips.peak_pressure)), "<=", limit,
+        "Pa", source=f"drawn profile; {PRESSURE_OVER_ULTIMATE:g} times the tensile strength",
         remedy="a larger joint.roller_radius or a thicker sheet lowers it", otherwise="warn",
     )  # fmt: skip
+
+
+def _with_profile_remedy(claim: Check, made: MadeJoint, where: str) -> Check:
+    """The claim; if it fails with changes that were tried, else with what was not."""
+    if claim.status == "pass":
+        return claim
+    if made.spec.compensation != "compliance":
+        return replace(claim, remedy=f"{where}: {torque_remedy(made)}")
+    tried = "; or ".join(synthesis_remedies(made.case, bears_roller(made.case)))
+    remedy = tried or "raise joint.drum_radius, or smooth target.law there; neither was tried"
+    return replace(claim, remedy=f"{where}: {remedy}")
 
 
 def _strength(made: MadeJoint) -> Iterator[Check]:

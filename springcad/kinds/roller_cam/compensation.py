@@ -22,6 +22,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from springcad.errors import InfeasibleError
 from springcad.kinds.roller_cam.contact_compliance import ProfileCompliance, profile_compliance
 from springcad.kinds.roller_cam.element import ElementDimensions
 from springcad.kinds.roller_cam.forward import forward
@@ -135,17 +136,30 @@ def _mean(one: ContactCompliance, other: ContactCompliance) -> ContactCompliance
 
 
 def simulated(profile: ContactProfile, compliance: ProfileCompliance) -> TorqueCurve:
-    """Torque of the beam with the element's compliance, as far as the profile goes."""
+    """Torque of the beam with the element's compliance, as far as the profile goes.
+
+    Raises:
+        InfeasibleError: the roller rests nowhere on the profile.
+    """
     angle, rest = profile.flank.angle, profile.flank.angle[0]
     angles = rest + np.linspace(JUDGED_FROM, 1.0, _SIMULATED) * (angle[-1] - rest)
-    stroke = forward(profile.joint, profile.curve, angles, compliance=compliance.at_place)
+    yielding = compliance.at_place
+    try:
+        stroke = forward(profile.joint, profile.curve, angles, compliance=yielding)
+    except InfeasibleError as error:
+        # The roller leaves a yielding element before the end of the overrun; its value is where.
+        angles = angles[angles < error.value]
+        if not len(angles):
+            raise
+        stroke = forward(profile.joint, profile.curve, angles, compliance=yielding)
     on_profile = stroke.place <= profile.curve.length
     return TorqueCurve(angles[on_profile], stroke.torque[on_profile])
 
 
 def torque_error(law: Law, curve: TorqueCurve) -> float:
-    """Largest |τ/τ_law − 1| from ``JUDGED_FROM`` of the stroke to its end."""
+    """Largest |τ/τ_law − 1| from ``JUDGED_FROM`` of the stroke to its end; 1 beyond the curve."""
     first = law.dead_zone + JUDGED_FROM * (law.deflection - law.dead_zone)
     counts = (curve.angle >= first * (1.0 - 1e-9)) & (curve.angle <= law.deflection * (1.0 + 1e-9))
     wanted = law.torque(curve.angle[counts])
-    return float(np.max(np.abs(curve.torque[counts] / wanted - 1.0)))
+    missing = float(curve.angle[-1] < law.deflection * (1.0 - 2.0 / _SIMULATED))
+    return float(np.max(np.abs(curve.torque[counts] / wanted - 1.0), initial=missing))

@@ -37,7 +37,8 @@ Floats = NDArray[np.float64]
 
 _SAMPLES = 41
 """Points along the profile at which the compliance is computed."""
-_DEGREE = 9
+_DEGREES = (2, 9)
+"""Least and greatest degree of the compliance over the place."""
 _NARROWEST = 1e-6
 _PATCH_POINTS = 48
 """Points of the midpoint rule over a patch, in the angle whose sine is the place on it."""
@@ -65,11 +66,13 @@ class ProfileCompliance:
     def at_place(self, place: Floats) -> Floats:
         """The compliance (A, 2, 2) over the place, linear beyond the ends.
 
-        A polynomial, by least squares: its second derivative enters the profile's curvature.
+        A polynomial, by least squares: its second derivative enters the profile's curvature. Its
+        degree is at most one per two elements: what differs between elements is no compliance.
         """
+        degree = int(np.clip(np.ptp(self.place) / (2.0 * COARSE.contact), *_DEGREES))
         middle, half = 0.5 * (self.place[0] + self.place[-1]), 0.5 * np.ptp(self.place)
         known = self.matrix.reshape(len(self.place), 4)
-        coefficients = chebfit((self.place - middle) / half, known, _DEGREE)
+        coefficients = chebfit((self.place - middle) / half, known, degree)
         x = (place - middle) / half
         within = np.clip(x, -1.0, 1.0)
         beyond = (x - within) * chebval(within, chebder(coefficients))

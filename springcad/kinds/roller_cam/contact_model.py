@@ -22,7 +22,7 @@ from springcad.kinds.roller_cam.joint import Roller
 from springcad.mechanics.fem.contact import prepare_contact
 from springcad.mechanics.fem.model import Load, Model, State, prepare_model
 from springcad.mechanics.fem.newton import NoEquilibriumError, solve_path
-from springcad.mechanics.fem.recovery import edge_stress
+from springcad.mechanics.fem.recovery import edge_points, edge_stress
 from springcad.mechanics.fem.rigid_profile import RigidProfile, rigid_profile
 
 Floats = NDArray[np.float64]
@@ -121,13 +121,15 @@ def side_stress(element: ElementContact, press: Press) -> float:
     There it is that of a beam: without the notch of the fillets.
     """
     mesh, beam = element.model.solid.mesh, element.geometry.cantilever
-    foot = element.geometry.foot.center[0]
+    ends = (beam.height - beam.length, element.geometry.foot.center[0] - beam.height)
     largest = 0.0
     for edges in ("upper side", "lower side"):
-        x = mesh.nodes[mesh.edge_sets[edges][:, 1], 0]
-        plain = (x > beam.height - beam.length) & (x < foot - beam.height)
-        stress = _stress(element, press, edges)[plain]
-        largest = max(largest, float(np.max(np.abs(stress), initial=0.0)))
+        x = edge_points(mesh, edges)[..., 0].ravel()
+        stress = np.abs(_stress(element, press, edges)).ravel()
+        order = np.argsort(x)
+        plain = stress[(x > ends[0]) & (x < ends[1])]
+        at_ends = np.interp(ends, x[order], stress[order])
+        largest = max(largest, float(np.max(plain, initial=0.0)), float(np.max(at_ends)))
     return largest
 
 

@@ -22,8 +22,8 @@ Floats = NDArray[np.float64]
 
 _CHORD = 1e-9
 """Between the arcs of the drawing and their chords (m): a few micrometres long."""
-_REACH = 1e-3
-"""Of the profile to either side of the contact (m)."""
+_REACH = 2e-3
+"""Of the profile to either side of the contact (m); the widest strips are 1 mm to either side."""
 _STEEPEST = 0.5
 """Cosine of the angle to the contact up to which the profile is looked at."""
 

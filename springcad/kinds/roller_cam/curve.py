@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline, make_interp_spline
 
+from springcad.mechanics.plane import rotated
+
 Floats = NDArray[np.float64]
 
 QUINTIC = 5
@@ -52,6 +54,19 @@ class ProfileCurve:
         cross = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
         within = (place >= 0.0) & (place <= self.length)
         return np.where(within, cross / np.hypot(*first.T) ** 3, 0.0)
+
+    def on_circle(self, beyond: Floats) -> tuple[Floats, Floats]:
+        """Points and unit tangents (M, 2) on the last contact's circle of curvature.
+
+        Args:
+            beyond: length along it from the last contact (M,) [m].
+        """
+        end = np.array([self.length])
+        turn = self.curvature(end) * beyond
+        tangent = np.broadcast_to(self.tangents(end), (len(beyond), 2))
+        chord = beyond * np.sinc(0.5 * turn / np.pi)  # sin(x)/x of half the turn
+        points = self.points(end) + chord[:, None] * rotated(tangent, 0.5 * turn)
+        return points, rotated(tangent, turn)
 
     def dense(self, before: float = ENDS, beyond: float = ENDS, count: int = _DENSE) -> Floats:
         """Evenly spaced points (count, 2) that stand for the curve with straight ends [m]."""

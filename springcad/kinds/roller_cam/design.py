@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.outline_ops import profile_area, profile_faults
+from springcad.kinds.roller_cam.case import Case
 from springcad.kinds.roller_cam.compensation import JUDGED_FROM, Compensated, compensate
 from springcad.kinds.roller_cam.correction import Correction, correction_of, followed_law
 from springcad.kinds.roller_cam.curve import curve_through
@@ -28,7 +29,7 @@ from springcad.kinds.roller_cam.element import (
     element_profile,
     first_place,
 )
-from springcad.kinds.roller_cam.feasibility import Case, require_feasible
+from springcad.kinds.roller_cam.feasibility import require_feasible
 from springcad.kinds.roller_cam.forward import (
     Stroke,
     forward,
@@ -36,7 +37,7 @@ from springcad.kinds.roller_cam.forward import (
     offset_sensitivity,
     roller_friction,
 )
-from springcad.kinds.roller_cam.inputs import case_of, group_law, joint_of, roller_spec
+from springcad.kinds.roller_cam.inputs import case_of, foot_fillet, group_law, joint_of, roller_spec
 from springcad.kinds.roller_cam.joint import Joint
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.part import exact_part, linear_part
@@ -45,6 +46,7 @@ from springcad.kinds.roller_cam.remedies import synthesis_remedies
 from springcad.kinds.roller_cam.sizing import size_cantilever
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.roller_cam.stepwise import distance, march, printed
+from springcad.kinds.roller_cam.strip import roller_strips
 from springcad.kinds.roller_cam.summary import summarise
 from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
 from springcad.kinds.roller_cam.tip import linear_tip
@@ -60,8 +62,6 @@ Floats = NDArray[np.float64]
 
 ANGLES = 200
 """Angles at which the drawn profile is analysed: its arcs waver, and none may be passed over."""
-FOOT_FILLET = 1e-3
-"""Radius between cantilever and contact part (m), at least the smallest of the process."""
 ROUNDING = 0.05e-3
 """Radius of outer corners (m): the first contact lies near the upper one."""
 _BY_ENERGY = "use method: energy, which needs no steps"
@@ -148,6 +148,7 @@ def make_joint(
         element=element,
         drawn=drawn,
         stroke=stroke,
+        strips=roller_strips(joint, drawn.curve, stroke),
         expected_angle=_expected(law, stroke, correction),
         gap=least_gap(joint, drawn.curve, forward(joint, drawn.curve, angles)),
         sensitivity=sensitivity,
@@ -192,11 +193,11 @@ def _expected(law: Law, stroke: Stroke, correction: Correction | None) -> Floats
 
 
 def _dimensions(spec: RollerCamSpec) -> ElementDimensions:
-    smallest, mount = spec.process.rules.min_inside_radius, spec.mount
+    mount = spec.mount
     return ElementDimensions(
         thickness=spec.contact_part.thickness,
         root_fillet=spec.cantilever.root_fillet,
-        foot_fillet=max(FOOT_FILLET, smallest),
+        foot_fillet=foot_fillet(spec),
         rounding=ROUNDING,
         gap=spec.process.rules.min_gap,
         mount=Mount(

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Arc, Circle, Curve, Line, Outline, Profile
+from springcad.kinds.roller_cam.curve import ProfileCurve
 from springcad.kinds.roller_cam.joint import Cantilever
 from springcad.kinds.roller_cam.synthesis import ContactProfile
 
@@ -39,8 +40,9 @@ MOUNTED: dict[Mounting, str] = {
 """The same for people."""
 
 OVERHANG = 0.1
-"""The profile goes on straight, above its first contact as far as there is room and below its last,
-by this share of the roller's radius: the contact strip has a width."""
+"""The profile goes on by this share of the roller's radius, straight above its first contact as far
+as there is room and round below its last (``_lower_end``): the strip of contact has a width. It is
+fixed, as an end that changes with the strip would change the compliance in its turn."""
 _POINTS = 400
 
 
@@ -146,11 +148,11 @@ def element_geometry(profile: ContactProfile, dimensions: ElementDimensions) -> 
         InfeasibleError: there is no room for the profile's upper end.
     """
     curve = profile.curve
-    last = curve.length + OVERHANG * profile.joint.roller.radius
-    places = np.linspace(first_place(profile, dimensions), last, _POINTS)
-    return ElementGeometry(
-        profile.joint.cantilever, curve.points(places), curve.tangents(places), dimensions
-    )
+    places = np.linspace(first_place(profile, dimensions), last_place(profile), _POINTS)
+    above, below = np.minimum(places, curve.length), np.maximum(places - curve.length, 0.0)
+    points, tangents = curve.points(above), curve.tangents(above)
+    points[below > 0.0], tangents[below > 0.0] = _lower_end(curve, below[below > 0.0])
+    return ElementGeometry(profile.joint.cantilever, points, tangents, dimensions)
 
 
 def first_place(profile: ContactProfile, dimensions: ElementDimensions) -> float:
@@ -169,6 +171,25 @@ def first_place(profile: ContactProfile, dimensions: ElementDimensions) -> float
         claim = "height of the upper half of the profile, which the mirrored element leaves free"
         raise InfeasibleError(claim, lowest, highest, "m", ("raise joint.roller_radius",))
     return float(places[free[0]])
+
+
+def last_place(profile: ContactProfile) -> float:
+    """Place of the profile's lower end, beyond its last contact [m]."""
+    return profile.curve.length + OVERHANG * profile.joint.roller.radius
+
+
+def _lower_end(curve: ProfileCurve, beyond: Floats) -> tuple[Floats, Floats]:
+    """Points and unit tangents (M, 2) beyond the last contact (M,) [m].
+
+    On its circle of curvature, as if roller and profile went on as they touched last, until that is
+    level or upright, and then straight: the profile neither rises nor turns back.
+    """
+    end = np.array([curve.length])
+    ((along, down),), (curvature,) = curve.tangents(end), curve.curvature(end)
+    left = math.atan2(down, -along) if curvature < 0.0 else math.atan2(along, down)
+    bent = np.minimum(beyond, abs(left / curvature)) if curvature else beyond
+    points, tangents = curve.on_circle(bent)
+    return points + (beyond - bent)[:, None] * tangents, tangents
 
 
 def require_room(geometry: ElementGeometry) -> None:

@@ -36,6 +36,11 @@ SURFACE = 3.0
 """The elements in the middle of the cantilever are this many times as high as at its sides."""
 PIECE = 2.0
 """The mount is meshed to this many heights of the cantilever behind the root."""
+LEAN = 0.4
+"""From the lower end of the profile the blocks' border falls so steeply to the back: the profile
+may end level, and neither of the two blocks must be pointed there."""
+LOWEST = 0.35
+"""It ends no lower than this share of the way from the foot up to the end of the profile."""
 
 
 @dataclass(frozen=True)
@@ -174,7 +179,10 @@ def _contact_part_blocks(
     through = graded(density.through, min(4.0, geometry.dimensions.thickness / density.contact))
     neck, head = _neck_front(geometry, density), _head_front(geometry, density)
     length = _lengths(chain(neck, head))
-    rise = toe[1] + length / length[-1] * (geometry.top - toe[1])
+    lowest = toe[1] + LOWEST * (head[0, 1] - toe[1])
+    shelf_end = max(head[0, 1] - LEAN * (back - head[0, 0]), lowest)
+    knots = length[[0, len(neck) - 1, -1]]
+    rise = np.interp(length, knots, [toe[1], shelf_end, geometry.top])
     spine = np.column_stack([np.full(len(rise), back), rise])
     low, high = spine[: len(neck)], spine[len(neck) - 1 :]
     sole = straight(section[0], np.array([back, section[0, 1]]), through)

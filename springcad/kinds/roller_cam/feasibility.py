@@ -1,105 +1,41 @@
 """Can any profile give the law? Closed forms only, before any profile is sought.
 
-Each limit but the stress, which is an estimate, is necessary: a case that fails one has no design.
-A case that passes all may still have none, because the profile may fold back or be undercut.
+Each limit but the stress, which is an estimate, is necessary: a case that fails one has no design
+that bears its strip of contact to the end. A case that passes all may still have none, because the
+profile may fold back or be undercut.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.feasible import advised, require_all
 from springcad.kinds.interpolation import ROUND_OFF
-from springcad.kinds.knobs import Knob, remedies
-from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
-from springcad.kinds.roller_cam.part import roller_contact
-from springcad.kinds.roller_cam.tip import linear_tip
-from springcad.kinds.target_law import Law
-from springcad.mechanics.section import SHEAR_CORRECTION, area
+from springcad.kinds.knobs import remedies
+from springcad.kinds.roller_cam.case import ANGLES, Case, knobs_of
+from springcad.kinds.roller_cam.limits import (
+    LEAST_OVERRUN,
+    end_stress,
+    lowest_point,
+    required_arm,
+    tip_stiffness,
+)
 from springcad.result import Check, check
 
 Floats = NDArray[np.float64]
 
-ANGLES = 200
-"""Angles at which the law is looked at."""
 ESTIMATE_ERROR = 0.03
 """Share by which the estimate of the stress may be wrong; measured: 0.9 to 1.4 %, too high."""
 DRUM_ROOM = 1.08
 """Drum radius over the limiting one that remedies aim at: nearer to it the roller is so close to
-the tip at the end that the contact part's yielding decides."""
+the tip at the end, and so nearly as round the profile, that the contact part's yielding decides
+whether the strip of contact at full stroke still lies on it."""
 _DRUM = "drum radius"
-_CONTACTS = np.geomspace(1e-6, 0.5 * math.pi, 300)
-"""Contact angles round the roller between which the one that holds the energy is interpolated."""
-
-
-@dataclass(frozen=True)
-class Case:
-    """One group to be judged, SI.
-
-    Attributes:
-        law: of the group.
-        deflection: largest angle; may be below that of the law.
-        joint: one element and its roller; of a cantilever that is to be sized, the stiffest.
-        is_sized: whether the cantilever is to be sized.
-        least_height: of the cantilever.
-        design_stress, yield_strength: allowed in bending, and of the material.
-        clearance: least gap between roller and cantilever.
-        torque_share: by which all torques of the law are multiplied.
-    """
-
-    law: Law
-    deflection: float
-    joint: Joint
-    is_sized: bool
-    least_height: float
-    design_stress: float
-    yield_strength: float
-    clearance: float
-    torque_share: float = 1.0
-
-    @property
-    def wanted(self) -> Law:
-        """The law with its deflection and its torques as they are in this case."""
-        law, share = self.law, self.torque_share
-        return replace(
-            law,
-            deflection=self.deflection,
-            torque=lambda angle: share * law.torque(angle),
-            energy=lambda angle: share * law.energy(angle),
-            stiffness=lambda angle: share * law.stiffness(angle),
-            points=law.points * [1.0, share],
-        )
-
-    @property
-    def angle(self) -> Floats:
-        """Angles beyond the dead zone (ANGLES,)."""
-        dead = self.law.dead_zone
-        return dead + (self.deflection - dead) * np.arange(1, ANGLES + 1) / ANGLES
-
-
-def tip_stiffness(cantilever: Cantilever) -> float:
-    """Force across the tip per deflection, by bending, shear and the turning of the clamp (N/m).
-
-    001 counts bending only, which is 3 % stiffer for its cantilever.
-    """
-    sheared = SHEAR_CORRECTION * cantilever.shear_modulus
-    section = float(area(cantilever.width, 0.5 * cantilever.height))
-    clamp = cantilever.root_compliance * cantilever.length**2
-    return 1.0 / (1.0 / cantilever.tip_stiffness + cantilever.length / (sheared * section) + clamp)
-
-
-def required_arm(torque: Floats, energy: Floats, stiffness: float) -> Floats:
-    """Least arm with which a tip of this stiffness gives the torque holding the energy (m).
-
-    With the force F = τ/arm it holds at least F²/(2k), when the roller is right over the tip.
-    Nan or inf for an energy too small to count.
-    """
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return torque / np.sqrt(2.0 * stiffness * energy)
+_GAP = "gap between roller and cantilever"
 
 
 def feasibility_checks(case: Case) -> tuple[Check, ...]:
@@ -133,13 +69,12 @@ def _checks(case: Case) -> tuple[Check, ...]:
     law = (*_material(case), *_law(angle, torque, stiffness))
     if any(claim.status == "fail" for claim in law):
         return law
-    energy = wanted.energy(angle)
     held = (
-        *_energy(case, angle, torque, energy),
+        *_energy(case),
         *_slope(case, float(wanted.stiffness(np.array([wanted.dead_zone]))[0])),
     )
     if all(claim.status == "pass" for claim in held):
-        held += _stress(case, float(torque[-1]), float(energy[-1]))
+        held += _stress(case, float(torque[-1]), float(wanted.energy(angle)[-1]))
     return (*law, *held, *_clearance(case))
 
 
@@ -170,8 +105,11 @@ def _law(angle: Floats, torque: Floats, stiffness: Floats) -> tuple[Check, ...]:
     return (positive, rising)
 
 
-def _energy(case: Case, angle: Floats, torque: Floats, energy: Floats) -> tuple[Check, ...]:
+def _energy(case: Case) -> tuple[Check, ...]:
     """The cantilever must not hold more than the law has stored; the roller is right over it."""
+    wanted, rest = case.wanted, case.law.dead_zone
+    angle = rest + (LEAST_OVERRUN * case.deflection - rest) * np.arange(1, ANGLES + 1) / ANGLES
+    torque, energy = wanted.torque(angle), wanted.energy(angle)
     stiffness = tip_stiffness(case.joint.cantilever)
     roller = case.joint.roller
     arm = required_arm(torque, energy, stiffness)
@@ -183,9 +121,9 @@ def _energy(case: Case, angle: Floats, torque: Floats, energy: Floats) -> tuple[
         check(
             f"{_DRUM}, for the energy at {_degrees(angle[worst])}", roller.drum_radius, ">=",
             float(radius[worst]), "m",
-            source=f"law stores {1e3 * energy[worst]:.4g} N*mm there; F = "
-            f"{torque[worst] / reach:.4g} N needs at least {1e3 * held:.4g} N*mm in a cantilever "
-            f"with k = {1e-3 * stiffness:.4g} N/mm",
+            source=f"the profile goes on to {LEAST_OVERRUN:g} of the deflection; law stores "
+            f"{1e3 * energy[worst]:.4g} N*mm there; F = {torque[worst] / reach:.4g} N needs at "
+            f"least {1e3 * held:.4g} N*mm in a cantilever with k = {1e-3 * stiffness:.4g} N/mm",
         ),
     )  # fmt: skip
 
@@ -215,68 +153,23 @@ def _stress(case: Case, torque: float, energy: float) -> tuple[Check, ...]:
     )  # fmt: skip
 
 
-def end_stress(joint: Joint, angle: float, torque: float, energy: float) -> float:
-    """Stress at the clamp where the cantilever gives the torque holding the energy (Pa).
-
-    By small rotations; inf where no contact gives it.
-    """
-    turned = np.full_like(_CONTACTS, angle)
-    touch = roller_contact(joint.roller, turned, _CONTACTS)
-    force = torque / (touch.reach * -touch.normal[:, 1])
-    state = linear_tip(joint.cantilever)(touch.point, force[:, None] * touch.normal)
-    beyond = np.flatnonzero((state.energy >= energy) & (state.energy > 0.0))
-    last = int(beyond[-1]) if len(beyond) else -1
-    if last < 0 or last + 1 == len(_CONTACTS):
-        return math.inf
-    rows = slice(last, last + 2)
-    share = np.interp(-math.log(energy), -np.log(state.energy[rows]), [0.0, 1.0])
-    return float(state.stress[last] + share * (state.stress[last + 1] - state.stress[last]))
-
-
 def _clearance(case: Case) -> tuple[Check, ...]:
     roller, angle = case.joint.roller, case.deflection
     height = case.least_height if case.is_sized else case.joint.cantilever.height
     gap = lowest_point(roller, angle) - 0.5 * height
     return (
-        check(f"gap between roller and cantilever, at {_degrees(angle)}", gap, ">=",
+        check(f"{_GAP}, at {_degrees(angle)}", gap, ">=",
               case.clearance, "m",
               source="y0 - R sin - r cos - h/2, the cantilever straight; smallest gap of the "
               "process"),
     )  # fmt: skip
 
 
-def lowest_point(roller: Roller, angle: float) -> float:
-    """Height of the turned roller's lowest point over the axis of the cantilever at rest (m)."""
-    return roller.offset - roller.drum_radius * math.sin(angle) - roller.radius * math.cos(angle)
-
-
 def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.4g} deg"
 
 
-KNOBS = (
-    Knob("joint.drum_radius", "mm", 1e-3, "joint.roller.drum_radius"),
-    Knob("joint.roller_offset", "mm", 1e-3, "joint.roller.offset"),
-    Knob("joint.roller_radius", "mm", 1e-3, "joint.roller.radius"),
-    Knob("target.deflection", "deg", math.pi / 180.0, "deflection", upwards=False),
-    Knob("all torques of target.law", "%", 0.01, "torque_share", upwards=False),
-    Knob("material.design_stress", "MPa", 1e6, "design_stress", upwards=False),
-)
-"""What a user may change, most telling first. Raising a stress is not a cure."""
-CANTILEVER_KNOBS = (
-    Knob("cantilever.length", "mm", 1e-3, "joint.cantilever.length"),
-    Knob("cantilever.height", "mm", 1e-3, "joint.cantilever.height"),
-    Knob("envelope.thickness", "mm", 1e-3, "joint.cantilever.width"),
-)
-"""The same for a cantilever that is given."""
-
-
 _LAW = "change target.law there: no other number within a factor of two helps"
-
-
-def knobs_of(case: Case) -> tuple[Knob, ...]:
-    """What may be changed in this case."""
-    return KNOBS if case.is_sized else KNOBS + CANTILEVER_KNOBS
 
 
 def case_remedies(case: Case) -> tuple[str, ...]:
@@ -296,9 +189,15 @@ def case_remedies(case: Case) -> tuple[str, ...]:
 
 def _without_room(case: Case) -> tuple[str, ...]:
     """Names of the checks that fail, or pass by less than the closed forms are sure of."""
+
+    def has_room(claim: Check) -> bool:
+        if claim.name.startswith(_DRUM):
+            return claim.value >= DRUM_ROOM * claim.limit
+        # The profile may end as low as the roller comes, and the fillet is below it.
+        return not claim.name.startswith(_GAP) or claim.value >= case.foot_fillet
+
     return tuple(
         claim.name.partition(",")[0]
         for claim in _checks(case)
-        if claim.status != "pass"
-        or (claim.name.startswith(_DRUM) and claim.value < DRUM_ROOM * claim.limit)
+        if claim.status != "pass" or not has_room(claim)
     )

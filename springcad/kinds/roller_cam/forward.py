@@ -19,7 +19,6 @@ from springcad.kinds.roller_cam.seating import Contacts, PlaceCompliance, loadin
 from springcad.kinds.roller_cam.tip import TipModel, TipState, carried
 from springcad.mechanics.cam_contact import Seat
 from springcad.mechanics.conjugate import Flank
-from springcad.mechanics.contact import peak_pressure
 from springcad.mechanics.friction import FrictionLoop, friction_loop
 from springcad.mechanics.plane import rotated
 
@@ -57,10 +56,6 @@ class Stroke:
     def normal_force(self) -> Floats:
         """Between roller and profile, friction included (A,) [N]."""
         return np.asarray(np.hypot(*self.force.T))
-
-    def pressure(self, width: float, modulus: float) -> Floats:
-        """Hertz's largest contact pressure (A,) [Pa]; ``modulus`` from ``contact_modulus``."""
-        return peak_pressure(self.normal_force, width, self.curvature, modulus)
 
 
 def forward(

@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from springcad.kinds.given_law import rise_of
-from springcad.kinds.roller_cam.feasibility import Case
+from springcad.kinds.roller_cam.case import Case
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.target_law import Law, law_of
 from springcad.spec.common import CommonSpec
+
+FOOT_FILLET = 1e-3
+"""Radius between cantilever and contact part (m), at least the smallest of the process."""
 
 
 def roller_spec(model: CommonSpec) -> RollerCamSpec:
@@ -49,6 +52,11 @@ def joint_of(spec: RollerCamSpec) -> Joint:
     return Joint(cantilever, roller)
 
 
+def foot_fillet(spec: RollerCamSpec) -> float:
+    """Radius between cantilever and contact part (m)."""
+    return max(FOOT_FILLET, spec.process.rules.min_inside_radius)
+
+
 def case_of(model: CommonSpec) -> Case:
     """The case that the closed forms judge, SI."""
     spec = roller_spec(model)
@@ -62,4 +70,5 @@ def case_of(model: CommonSpec) -> Case:
         design_stress=spec.material.design_stress,
         yield_strength=spec.material.values.yield_strength.value,
         clearance=spec.process.rules.min_gap,
+        foot_fillet=foot_fillet(spec),
     )

@@ -37,7 +37,7 @@ TOLERANCE = 0.005
 STRESS_TOLERANCE = 0.02
 """Over the largest. The beam's section is taken where it rests, not where it has gone to."""
 PRESSURE_TOLERANCE = 0.05
-"""At full stroke the arcs of the drawing waver; Hertz's formula knows one curvature."""
+"""The block of the second opinion has a depth, the half-planes of the design have none."""
 METHOD = "contact finite elements of the element"
 _ASSUMPTIONS = (
     "The second opinion is by nonlinear plane-stress finite elements of the whole element, finer "
@@ -136,7 +136,7 @@ def _comparisons(
     yield compared(
         "contact pressure", "Pa", reported("contact_pressure_Pa"),
         lambda press: contact_pressure(element, press, joint.outline), PRESSURE_TOLERANCE,
-        "Hertz; elements of a block pressed on the profile as drawn",
+        "elastic strip; elements of a block pressed on the profile as drawn",
     )  # fmt: skip
 
 

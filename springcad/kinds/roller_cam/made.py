@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.geometry.outline import Profile
+from springcad.kinds.roller_cam.case import Case
 from springcad.kinds.roller_cam.compensation import Compensated
 from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.drawn import DrawnProfile
 from springcad.kinds.roller_cam.element import ElementGeometry
-from springcad.kinds.roller_cam.feasibility import Case
 from springcad.kinds.roller_cam.forward import Stroke
 from springcad.kinds.roller_cam.joint import Joint
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.target_law import Law
+from springcad.mechanics.contact_strip import Strips
 from springcad.mechanics.friction import FrictionLoop
 from springcad.result import Check
 
@@ -39,6 +40,7 @@ class MadeJoint:
         geometry, element: the element, and as a part.
         drawn: its profile as the arcs of the drawing.
         stroke: one group seated on the drawn profile.
+        strips: on which the roller touches the drawn profile, over the stroke.
         expected_angle: at the torques of the stroke; its own, with a correction those expected
             where the curve is from (A,).
         gap: smallest distance of roller and profile at each angle of the stroke, the contact part
@@ -61,6 +63,7 @@ class MadeJoint:
     element: Profile
     drawn: DrawnProfile
     stroke: Stroke
+    strips: Strips
     expected_angle: Floats
     gap: Floats
     sensitivity: Floats

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from springcad.kinds.roller_cam.checks import pressure
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.result import Plot, Series
 
@@ -31,7 +30,7 @@ def joint_plots(made: MadeJoint) -> tuple[Plot, ...]:
              (Series("nominal", stroke.angle, stroke.tip.stress),),
              limit=made.spec.material.design_stress),
         Plot("Contact pressure", "angle", "rad", "pressure", "Pa",
-             (Series("Hertz", stroke.angle, pressure(made)),)),
+             (Series("elastic strip", stroke.angle, made.strips.peak_pressure),)),
         Plot("Torque per outward offset of the profile", "angle", "rad", "torque per length", "N",
              (Series("sensitivity", stroke.angle, made.sensitivity),)),
     )  # fmt: skip

@@ -11,11 +11,17 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
+import numpy as np
+
 from springcad.errors import InfeasibleError
 from springcad.kinds.knobs import Knob, changed, value_of
-from springcad.kinds.roller_cam.feasibility import Case, failures, knobs_of
+from springcad.kinds.roller_cam.case import Case, knobs_of
+from springcad.kinds.roller_cam.element import last_place
+from springcad.kinds.roller_cam.feasibility import failures
+from springcad.kinds.roller_cam.forward import forward, least_gap
+from springcad.kinds.roller_cam.strip import roller_strips
 from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
-from springcad.kinds.roller_cam.tip import linear_tip
+from springcad.kinds.roller_cam.tip import linear_carried, linear_tip
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -26,7 +32,11 @@ STEPS = (0.97, 0.9, 0.75, 0.5)
 """Shares to which a number is lowered, and by whose inverse it is raised, in this order."""
 MOST = 3
 """Remedies given at most."""
+INTERFERENCE = 2e-6
+"""Depth to which the calculated roller may cut into the profile beside its contact (m)."""
 _ANGLES = 24
+_EVERY = 10
+"""Of the angles of a case, every such is looked at."""
 _NOT_TRIED = ("material.design_stress",)
 
 
@@ -38,7 +48,8 @@ def synthesis_remedies(
     None where that is so without any change: what is wrong is not seen here.
 
     Args:
-        is_sound: what the profile must have beyond being possible; see ``within_stress``.
+        is_sound: what the profile must have beyond being possible: ``within_stress`` or
+            ``bears_roller``.
     """
     if _cures(case, is_sound):
         return ()
@@ -72,16 +83,30 @@ def within_stress(case: Case) -> Callable[[ContactProfile], bool]:
     return is_sound
 
 
-def contact_angle_remedy(angle: float, gamma: float) -> str:
-    """For a contact that leaves the roller's quarter: γ at the angle, rad."""
-    where = f"{math.degrees(gamma):.4g} deg round the roller at {math.degrees(angle):.4g} deg"
-    return f"contact {where}: raise joint.drum_radius, or make the cantilever stiffer"
+def bears_roller(case: Case) -> Callable[[ContactProfile], bool]:
+    """Whether up to the deflection the roller rests on a profile with its whole strip of contact.
 
+    Within a quarter of the roller and within the stress too, and cutting into it nowhere.
+    """
+    stress = within_stress(case)
 
-def interference_remedy(angle: float, depth: float) -> str:
-    """For a roller that cuts into the profile away from its contact: depth in m at the angle."""
-    cut = f"by {1e6 * depth:.3g} um at {math.degrees(angle):.4g} deg"
-    return f"roller cuts the profile {cut}: lower joint.roller_radius, or smooth the law there"
+    def is_sound(profile: ContactProfile) -> bool:
+        angles = case.angle[_EVERY - 1 :: _EVERY]
+        try:
+            stroke = forward(profile.joint, profile.curve, angles, beam=linear_carried)
+            strips = roller_strips(profile.joint, profile.curve, stroke)
+        except InfeasibleError:
+            return False
+        end = stroke.place + strips.middle + strips.half_width
+        gap = least_gap(profile.joint, profile.curve, stroke)
+        return bool(
+            stress(profile)
+            and np.nanmax(stroke.gamma) <= 0.5 * math.pi
+            and gap.min() >= -INTERFERENCE
+            and np.nanmax(end) <= last_place(profile)
+        )
+
+    return is_sound
 
 
 def _values(case: Tried, knob: Knob, step: float) -> Iterator[float]:

@@ -14,7 +14,8 @@ import numpy as np
 
 from springcad.errors import InfeasibleError
 from springcad.kinds.knobs import Knob
-from springcad.kinds.roller_cam.feasibility import Case, failures, require_feasible
+from springcad.kinds.roller_cam.case import Case
+from springcad.kinds.roller_cam.feasibility import failures, require_feasible
 from springcad.kinds.roller_cam.inputs import case_of
 from springcad.kinds.roller_cam.joint import Cantilever, Joint
 from springcad.kinds.roller_cam.remedies import stepped_remedies

@@ -16,8 +16,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.kinds.roller_cam.feasibility import lowest_point
 from springcad.kinds.roller_cam.joint import Cantilever, Joint, Roller
+from springcad.kinds.roller_cam.limits import LEAST_OVERRUN, lowest_point
 from springcad.kinds.roller_cam.part import STATION_LIMITS, part_with, roller_contact
 from springcad.kinds.roller_cam.synthesis import rises_at_once
 from springcad.kinds.roller_cam.tip import TipModel, linear_tip
@@ -42,10 +42,8 @@ STRESS = np.array([0.0, 0.0, 0.0, 1.0])
 
 STRESS_RESERVE = 1e-6
 ENERGY_RESERVE = 1e-4
-LEAST_OVERRUN = 1.03
 """By these shares the stress stays below what is allowed, and the energy that the cantilever holds
-at least, the roller right over its tip, below that of the law; and up to this share of the
-deflection: the strip of contact at full stroke needs a profile on both sides of it."""
+at least, the roller right over its tip, below that of the law."""
 _FEASIBLE = 1e-7
 """Largest violation of a limit, of its logarithm."""
 _AS_GOOD = 1e-6

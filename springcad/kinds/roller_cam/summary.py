@@ -13,7 +13,6 @@ from springcad.kinds.roller_cam.checks import (
     TORQUE_TOLERANCE,
     first_contact,
     joint_checks,
-    pressure,
     torque_errors,
     uncertain_until,
 )
@@ -120,7 +119,7 @@ def _response(made: MadeJoint) -> dict[str, Value]:
         "torque_error": absolute,
         "relative_torque_error": relative,
         "peak_nominal_stress_Pa": float(np.max(stroke.tip.stress)),
-        "peak_contact_pressure_Pa": float(np.max(pressure(made))),
+        "peak_contact_pressure_Pa": float(np.max(made.strips.peak_pressure)),
         "peak_roller_force_N": float(np.max(stroke.normal_force)),
         "first_contact_angle_rad": first_contact(made),
         "largest_contact_angle_rad": float(np.nanmax(stroke.gamma)),
@@ -132,7 +131,7 @@ def _response(made: MadeJoint) -> dict[str, Value]:
         "group_energy_J": stroke.energy,
         "roller_force_N": stroke.normal_force,
         "nominal_stress_Pa": stroke.tip.stress,
-        "contact_pressure_Pa": pressure(made),
+        "contact_pressure_Pa": made.strips.peak_pressure,
         "contact_angle_rad": stroke.gamma,
         "offset_sensitivity_N": made.sensitivity,
         **_hysteresis(made),
@@ -170,7 +169,8 @@ def _outcomes(made: MadeJoint) -> Iterator[Outcome]:
                   "largest from 2.6 % of the stroke on")  # fmt: skip
     yield Outcome("nominal stress at the clamp", float(np.max(stroke.tip.stress)), "Pa",
                   made.spec.material.design_stress, "bending and axial, no notch")  # fmt: skip
-    yield Outcome("contact pressure", float(np.max(pressure(made))), "Pa", None, "Hertz")
+    yield Outcome("contact pressure", float(np.max(made.strips.peak_pressure)), "Pa", None,
+                  "elastic strip on the drawn profile")  # fmt: skip
     yield Outcome("force of the roller", float(np.max(stroke.normal_force)), "N")
     yield Outcome("tip stiffness of the cantilever", made.joint.cantilever.tip_stiffness, "N/m")
     yield Outcome("mass of an element", made.mass, "kg")

@@ -19,8 +19,12 @@ from springcad.mechanics.fem.element import (
     edge_shape_functions,
     gauss_points,
 )
+from springcad.mechanics.fem.mesh import Mesh
 
 Floats = NDArray[np.float64]
+
+_ON_EDGE = np.array([-1.0, 1.0]) / np.sqrt(3.0)
+"""The points on an edge, in its reference coordinate."""
 
 
 def gauss_stress(solid: Solid, displacement: Floats) -> Floats:
@@ -63,13 +67,19 @@ def edge_stress(solid: Solid, displacement: Floats, edges: str) -> Floats:
     """
     mesh, sheet = solid.mesh, solid.sheet
     numbers = mesh.edge_sets[edges]
-    _, slope = edge_shape_functions(np.array([-1.0, 1.0]) / np.sqrt(3.0))
+    _, slope = edge_shape_functions(_ON_EDGE)
     reference = slope @ mesh.nodes[numbers]
     deformed = reference + slope @ displacement.reshape(-1, 2)[numbers]
     strain = 0.5 * (np.sum(deformed**2, axis=-1) / np.sum(reference**2, axis=-1) - 1.0)
     stretch = np.sqrt(1.0 + 2.0 * strain)
     thinning = 1.0 - 2.0 * sheet.poisson_ratio * strain
     return np.asarray(sheet.elastic_modulus * strain * stretch / thinning)
+
+
+def edge_points(mesh: Mesh, edges: str) -> Floats:
+    """Where ``edge_stress`` is told, on the unloaded mesh (K, 2, 2) [m]."""
+    value, _ = edge_shape_functions(_ON_EDGE)
+    return np.asarray(value @ mesh.nodes[mesh.edge_sets[edges]])
 
 
 def von_mises(stresses: Floats) -> Floats:
