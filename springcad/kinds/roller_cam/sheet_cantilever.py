@@ -7,14 +7,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from springcad.kinds.roller_cam.feasibility import (
-    Case,
+from springcad.kinds.roller_cam.case import Case
+from springcad.kinds.roller_cam.joint import BLUNTED, POCKET, Joint
+from springcad.kinds.roller_cam.limits import (
     end_stress,
     lowest_point,
     required_arm,
     tip_stiffness,
 )
-from springcad.kinds.roller_cam.joint import BLUNTED, POCKET, Joint
 from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.sheet_words import chosen_within
 from springcad.mechanics.section import second_moment_of_area

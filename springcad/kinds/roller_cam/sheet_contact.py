@@ -11,7 +11,7 @@ from springcad.kinds.roller_cam.checks import first_contact, torque_errors
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.part import roller_contact, roller_curvature
 from springcad.kinds.strength_sheet import life_steps
-from springcad.mechanics.contact import contact_modulus
+from springcad.mechanics.contact import contact_modulus, peak_pressure
 from springcad.result import Result
 from springcad.sheet import Section, Step, derived, found, given
 
@@ -104,9 +104,11 @@ def _contact(made: MadeJoint) -> Iterator[Step]:
     )  # fmt: skip
     yield found("kappa", "curvature of roller and profile together", float(stroke.curvature[-1]),
                 "1/m", _FORWARD)  # fmt: skip
-    yield derived("p_H", "pressure on the profile", "sqrt(F*E_c*kappa/(pi*w))",
-                  float(stroke.pressure(beam.width, modulus)[-1]), "Pa",
-                  "Johnson, Eq. 4.45")  # fmt: skip
+    hertz = peak_pressure(stroke.normal_force, beam.width, stroke.curvature, modulus)
+    yield derived("p_H", "pressure for this curvature all along", "sqrt(F*E_c*kappa/(pi*w))",
+                  float(hertz[-1]), "Pa", "Johnson, Eq. 4.45")  # fmt: skip
+    yield found("p_0", "pressure on the profile", float(made.strips.peak_pressure[-1]), "Pa",
+                f"{_PAGE}, 5", "the curvature changes along the strip of contact")  # fmt: skip
 
 
 def _clamp(made: MadeJoint, pull: float) -> Iterator[Step]:
