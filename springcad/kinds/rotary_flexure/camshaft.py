@@ -59,6 +59,7 @@ class CamshaftInputs:
         deflection: largest angle in each direction.
         torque, energy: of the whole spring over the angle (a magnitude), energy from zero.
         poisson_ratio: of flexure and camshaft, both of the flexure's elastic modulus.
+        sheets: as many equal rings twist the camshaft together.
         bore_radius: of the camshaft, 0 for none.
         backlash: tangential play of the unloaded tips at the contact radius, both sides together.
         bottom_clearance: radial clearance of the noses at rest, at least.
@@ -74,6 +75,7 @@ class CamshaftInputs:
     torque: Callable[[Floats], Floats]
     energy: Callable[[Floats], Floats]
     poisson_ratio: float
+    sheets: int = 1
     bore_radius: float = 0.0
     backlash: float = 0.0
     bottom_clearance: float = 0.1e-3
@@ -179,7 +181,7 @@ def design_camshaft(beam: PreparedBeam, inputs: CamshaftInputs) -> Camshaft:
     force = max(float(side.force.max()) for side in flanks)
     thickness = _tooth_thickness(slot, inputs.count)
     lever = slot.tip_radius - slot.foot_radius
-    torque = float(inputs.torque(flanks[0].angle[-1:])[0])
+    torque = inputs.sheets * float(inputs.torque(flanks[0].angle[-1:])[0])
     return Camshaft(
         profile=profile,
         slot=slot,

@@ -120,6 +120,7 @@ def camshaft_inputs(
         torque=target.torque,
         energy=target.energy,
         poisson_ratio=spec.material.values.poisson_ratio.value,
+        sheets=case.stack.parallel,
         bore_radius=case.camshaft_bore_radius,
         backlash=spec.camshaft.backlash,
     )

@@ -16,20 +16,21 @@ FLANK_TOLERANCE = 6e-6
 def parts(spring: Spring) -> tuple[Part, ...]:
     """Ring and camshaft; the camshaft drawn as finely as its torque asks for."""
     title = spring.spec.material.values.title
-    thickness = spring.law.inputs.thickness
+    stack = spring.stack
     tolerance = FLANK_TOLERANCE * spring.law.inputs.contact_radius
     return (
         Part(
-            "", "flexure ring", spring.ring, thickness, title,
+            "", "flexure ring", spring.ring, stack.sheet, title,
             dimensions=(
                 _radius("outer", spring.case.outer_radius, 40.0),
                 _radius("root", spring.law.inputs.root_radius, 130.0),
                 _radius("contact", spring.law.inputs.contact_radius, 220.0),
             ),
+            count=stack.sheets,
         ),
         Part(
-            "camshaft", "camshaft", spring.camshaft.profile, thickness, title, tolerance,
-            tuple(_camshaft_dimensions(spring)),
+            "camshaft", "camshaft", spring.camshaft.profile, stack.camshaft_length, title,
+            tolerance, tuple(_camshaft_dimensions(spring)), stack.series,
         ),
     )  # fmt: skip
 

@@ -12,6 +12,7 @@ from springcad.kinds.rotary_flexure.response import Stroke
 from springcad.kinds.rotary_flexure.search import Found
 from springcad.kinds.rotary_flexure.sizing import Sized
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
+from springcad.kinds.rotary_flexure.stack import Stack
 from springcad.kinds.target_law import Law
 from springcad.mechanics.beam import PreparedBeam
 from springcad.result import Check
@@ -19,10 +20,11 @@ from springcad.result import Check
 
 @dataclass(frozen=True)
 class Spring:
-    """Everything that was decided about one spring and what it does; SI.
+    """Everything that was decided about one sheet of a joint and what it does; SI.
 
     Attributes:
-        spec, case, law, target: what it was designed for; the torque law is the target.
+        spec, case, law, target: what it was designed for; the torque law is the target, the spec
+            that of the whole joint.
         feasibility: the closed-form checks that it passed before the search.
         sized: its flexures.
         ring: the flexure ring.
@@ -42,6 +44,11 @@ class Spring:
     camshaft: Camshaft
     strokes: tuple[Stroke, Stroke]
     mass: float
+
+    @property
+    def stack(self) -> Stack:
+        """The sheets of the joint, of which this is one."""
+        return self.case.stack
 
     @property
     def found(self) -> Found:

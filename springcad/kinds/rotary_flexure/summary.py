@@ -10,6 +10,13 @@ from springcad.kinds.lasting import Loading
 from springcad.kinds.rotary_flexure.calibrated import calibrated_sources
 from springcad.kinds.rotary_flexure.checks import root_fillet_stress, spring_checks
 from springcad.kinds.rotary_flexure.drawn_parts import parts
+from springcad.kinds.rotary_flexure.joint import (
+    joint_assumptions,
+    joint_design,
+    joint_plot,
+    joint_response,
+    with_joint,
+)
 from springcad.kinds.rotary_flexure.numbers import design_numbers, peak, response_numbers
 from springcad.kinds.rotary_flexure.plots import plots
 from springcad.kinds.rotary_flexure.spring import Spring
@@ -21,17 +28,18 @@ from springcad.spec.source import Spec
 
 def summarise(spec: Spec, spring: Spring) -> Result:
     """Everything that the reports and files show."""
+    stacked = spring.stack.sheets > 1
     result = Result(
         kind=spec.kind,
         name=spec.name,
         spec=spec.raw,
-        design=design_numbers(spring),
-        response=response_numbers(spring),
+        design=design_numbers(spring) | ({"stack": joint_design(spring)} if stacked else {}),
+        response=response_numbers(spring) | ({"joint": joint_response(spring)} if stacked else {}),
         checks=spring_checks(spring),
-        outcomes=_outcomes(spring),
+        outcomes=with_joint(spring, _outcomes(spring)) if stacked else _outcomes(spring),
         parts=parts(spring),
-        plots=plots(spring),
-        assumptions=assumptions(spring),
+        plots=(*((joint_plot(spring),) if stacked else ()), *plots(spring)),
+        assumptions=(*joint_assumptions(spring), *assumptions(spring)),
         advice=tuple(advice(spring)),
         provenance=_provenance(spec, spring),
     )
@@ -51,7 +59,7 @@ def _loading(spring: Spring) -> Loading:
         share=share,
         stress=np.maximum(ahead, behind),
         section=(root, spring.law.inputs.thickness),
-        torque=forward.torque,
+        torque=spring.stack.parallel * forward.torque,
         local={
             "inner-fibre stress": peak(spring, "local_stress"),
             "root fillet stress": root_fillet_stress(spring),
