@@ -16,6 +16,7 @@ from springcad.kinds.rotary_flexure.ring import Dowels, ring_profile
 from springcad.kinds.rotary_flexure.sizing import size_flexure
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.kinds.rotary_flexure.stack import of_sheet, stack_of
 from springcad.kinds.rotary_flexure.summary import summarise
 from springcad.kinds.rotary_flexure.trials import (
     BEND_LIMIT,
@@ -34,7 +35,11 @@ def design_spring(spec: Spec, progress: Progress) -> Result:
     Raises:
         InfeasibleError: no part can meet the spec.
     """
-    return summarise(spec, build_spring(rotary_spec(spec.model), progress))
+    model = rotary_spec(spec.model)
+    try:
+        return summarise(spec, build_spring(model, progress))
+    except InfeasibleError as error:
+        raise of_sheet(error, stack_of(model)) from error
 
 
 def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:

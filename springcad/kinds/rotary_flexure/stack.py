@@ -12,8 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from springcad.errors import InfeasibleError
 from springcad.kinds.knobs import Knob
 from springcad.kinds.rotary_flexure.stack_spec import sheets_in
+from springcad.result import Check
 
 if TYPE_CHECKING:
     from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
@@ -102,6 +104,21 @@ def law_of_sheet(joint: Law, stack: Stack) -> Law:
         words=f"of the whole joint: {joint.words}",
         points=joint.points / [series, parallel],
     )
+
+
+def named(checks: Sequence[Check], stack: Stack) -> tuple[Check, ...]:
+    """The checks of one sheet, which say so where there are more."""
+    if stack.sheets == 1:
+        return tuple(checks)
+    return tuple(replace(claim, name=f"one sheet: {claim.name}") for claim in checks)
+
+
+def of_sheet(error: InfeasibleError, stack: Stack) -> InfeasibleError:
+    """The refusal of one sheet, which says so where there are more."""
+    if stack.sheets == 1:
+        return error
+    claim = f"of one sheet of the stack: {error.claim}"
+    return InfeasibleError(claim, error.value, error.limit, error.unit, error.remedies)
 
 
 def knobs_of_joint(knobs: Sequence[Knob], stack: Stack) -> list[Knob]:

@@ -20,6 +20,7 @@ from springcad.kinds.rotary_flexure.joint import (
 from springcad.kinds.rotary_flexure.numbers import design_numbers, peak, response_numbers
 from springcad.kinds.rotary_flexure.plots import plots
 from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.kinds.rotary_flexure.stack import named
 from springcad.kinds.rotary_flexure.words import advice, assumptions
 from springcad.kinds.strength import with_strength
 from springcad.result import Outcome, Result, Value
@@ -35,7 +36,7 @@ def summarise(spec: Spec, spring: Spring) -> Result:
         spec=spec.raw,
         design=design_numbers(spring) | ({"stack": joint_design(spring)} if stacked else {}),
         response=response_numbers(spring) | ({"joint": joint_response(spring)} if stacked else {}),
-        checks=spring_checks(spring),
+        checks=named(spring_checks(spring), spring.stack),
         outcomes=with_joint(spring, _outcomes(spring)) if stacked else _outcomes(spring),
         parts=parts(spring),
         plots=(*((joint_plot(spring),) if stacked else ()), *plots(spring)),
