@@ -8,16 +8,11 @@ from collections.abc import Iterator
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.result import Dimension, Part
 
-FLANK_TOLERANCE = 6e-6
-"""The arcs of the camshaft's drawing follow it within this share of the contact radius, 36 nm for
-6 mm: at 2 um they waver enough to change the torque by 0.5 % locally."""
-
 
 def parts(spring: Spring) -> tuple[Part, ...]:
     """Ring and camshaft; the camshaft drawn as finely as its torque asks for."""
     title = spring.spec.material.values.title
     stack = spring.stack
-    tolerance = FLANK_TOLERANCE * spring.law.inputs.contact_radius
     return (
         Part(
             "", "flexure ring", spring.ring, stack.sheet, title,
@@ -30,7 +25,7 @@ def parts(spring: Spring) -> tuple[Part, ...]:
         ),
         Part(
             "camshaft", "camshaft", spring.camshaft.profile, stack.camshaft_length, title,
-            tolerance, tuple(_camshaft_dimensions(spring)), stack.series,
+            spring.camshaft.tolerance, tuple(_camshaft_dimensions(spring)), stack.series,
         ),
     )  # fmt: skip
 

@@ -103,8 +103,8 @@ def joint_assumptions(spring: Spring) -> tuple[str, ...]:
     stack, sentences = spring.stack, []
     if stack.sheets > 1:
         sentences.append(
-            "Stresses, checks, lives, advice and the second opinion are of one sheet, and so are the "
-            f"curves but the first; its torque is 1/{stack.parallel} and its angle "
+            "Stresses, checks, lives, advice and the second opinion are of one sheet, and so "
+            f"are the curves but the first; its torque is 1/{stack.parallel} and its angle "
             f"1/{stack.series} of the joint's."
         )
     if stack.parallel > 1:
