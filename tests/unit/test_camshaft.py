@@ -18,13 +18,13 @@ from springcad.geometry.outline_ops import (
     profile_faults,
     profile_polygon,
 )
+from springcad.kinds.rotary_flexure.cam_clearance import tips_in_slot
 from springcad.kinds.rotary_flexure.camshaft import (
     Camshaft,
     CamshaftInputs,
     design_camshaft,
     flank,
     seated,
-    tips_in_slot,
 )
 from springcad.kinds.rotary_flexure.flexure_contact import flexure_part
 from springcad.mechanics.beam import (
@@ -256,7 +256,7 @@ def test_loads_of_s1() -> None:
     assert cam.hub_stress == pytest.approx(2 * torque / (np.pi * core**3), rel=1e-9)
     assert 1.05e-3 < cam.tooth_thickness < 1.2e-3
     assert 0.45e-3 < cam.tooth_height < 0.65e-3
-    assert cam.tooth_stress < 200e6
+    assert 200e6 < cam.tooth_stress < 300e6
 
 
 def test_a_rate_that_the_flexure_cannot_give_is_refused_with_the_angle() -> None:

@@ -8,32 +8,30 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
-import shapely
-import shapely.affinity
 from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.biarc import fit_contour
-from springcad.geometry.outline import Arc, Circle, Line, Outline, Piece, Profile
-from springcad.geometry.outline_ops import contour_points, piece_end
-from springcad.geometry.polyline import BulgePolyline, rotate_vectors
+from springcad.geometry.outline import Arc, Circle, Outline, Piece, Profile
+from springcad.geometry.polyline import BulgePolyline
 from springcad.geometry.transform import rotate
+from springcad.kinds.rotary_flexure.cam_clearance import overlap, thinnest_tooth
 from springcad.kinds.rotary_flexure.cam_slot import Rest, Slot, tooth_space
+from springcad.kinds.rotary_flexure.cam_tooth import tooth_root_stress
 from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
 from springcad.kinds.rotary_flexure.flexure_contact import (
     NOSE_ALLOWANCE,
     flexure_part,
     global_points,
-    tip_outlines,
 )
 from springcad.kinds.rotary_flexure.room import hub_shear_stress
-from springcad.mechanics.beam import PreparedBeam, contact_load, unloaded_points
+from springcad.mechanics.beam import PreparedBeam, unloaded_points
 from springcad.mechanics.cam_contact import Seat, seat
 from springcad.mechanics.conjugate import Flank, conjugate_flank, hertz_half_width, hertz_pressure
 from springcad.mechanics.contact import contact_modulus
+from springcad.mechanics.fem.assembly import Sheet
 from springcad.mechanics.torque_law import TorqueLaw
 
 Floats = NDArray[np.float64]
@@ -48,8 +46,6 @@ STRIPS = 2.0
 FLANK_TOLERANCE = 6e-6
 """The arcs of the camshaft's drawing follow it within this share of the contact radius, 36 nm for
 6 mm: at 2 um they waver enough to change the torque by 0.5 % locally."""
-_CHORD = 1e-8
-"""Distance between the slot and the chords that stand for it where clearance is measured (m)."""
 
 
 @dataclass(frozen=True)
@@ -100,9 +96,7 @@ class Camshaft:
         flanks: of directions +1 and −1, to the end of the overrange.
         tooth_thickness: smallest thickness of a tooth (m).
         tooth_height: from the bottom to the tip circle (m).
-        tooth_stress: bending stress at a tooth's foot under the largest force, an estimate: a
-            cantilever of the smallest thickness from the bottom's centre to the tip circle, the
-            force across it, no notch (Pa).
+        tooth_stress: at the roots of the teeth at the end of the flanks, by finite elements (Pa).
         hub_stress: torsion of the round core inside the slots, without notch (Pa).
         pressure: Hertzian pressure on the flanks (2, A), pad flat, flank radius as drawn (Pa).
         overlap: how deep the tips, at rest and deformed, cut into the teeth anywhere (m).
@@ -189,19 +183,22 @@ def design_camshaft(beam: PreparedBeam, inputs: CamshaftInputs) -> Camshaft:
         )
     profile = camshaft_profile(slot, inputs.count, inputs.bore_radius)
     tolerance = FLANK_TOLERANCE * float(np.hypot(*rest.nose_center))
-    force = max(float(side.force.max()) for side in flanks)
-    thickness = _tooth_thickness(slot, inputs.count)
-    lever = slot.tip_radius - slot.foot_radius
+    outline = fit_contour(profile.outer, tolerance)
+    sheet = Sheet(beam.beam.elastic_modulus, inputs.poisson_ratio, beam.beam.thickness)
+    stresses = [
+        tooth_root_stress(outline, side, sheet, count=inputs.count, foot_radius=slot.foot_radius)
+        for side in flanks
+    ]
     torque = inputs.sheets * float(inputs.torque(flanks[0].angle[-1:])[0])
     return Camshaft(
         profile=profile,
         tolerance=tolerance,
-        drawn=fit_contour(profile.outer, tolerance),
+        drawn=outline,
         slot=slot,
         flanks=flanks,
-        tooth_thickness=thickness,
+        tooth_thickness=thinnest_tooth(slot, inputs.count),
         tooth_height=slot.tip_radius - slot.bottom_radius,
-        tooth_stress=force * 6.0 * lever / (beam.beam.thickness * thickness**2),
+        tooth_stress=float(np.max(stresses)),
         hub_stress=float(hub_shear_stress(torque, slot.bottom_radius, inputs.bore_radius)),
         pressure=np.stack([hertz_pressure(side, beam.beam.thickness, modulus) for side in drawn]),
         overlap=max(slot.preload, *(overlap(beam, inputs, slot, side) for side in flanks)),
@@ -267,51 +264,3 @@ def seated(
         station_limits=_pad(beam, inputs),
     )
     return replace(found, angle=found.angle - play)
-
-
-def overlap(beam: PreparedBeam, inputs: CamshaftInputs, slot: Slot, side: Flank) -> float:
-    """How deep the deformed tip cuts into the teeth beside its slot, at the angles of ``side``.
-
-    Tested both ways with dense points, of the tip against the slot and of the slot against the
-    tip; arcs are chords within 10 nm.
-    """
-    space = slot_polygon(slot)
-    boundary = np.asarray(space.exterior.coords)
-    points = shapely.points(boundary[np.hypot(*boundary.T) < (1.0 + 1e-9) * slot.tip_radius])
-    deepest = 0.0
-    turned = replace(side, angle=side.angle + slot.free_play)
-    for tip in tips_in_slot(beam, inputs, turned):
-        inside = tip[np.hypot(*tip.T) < slot.tip_radius]
-        deepest = max(deepest, float(shapely.distance(shapely.points(inside), space).max()))
-        outline = shapely.Polygon(tip)
-        shapely.prepare(outline)
-        covered = points[shapely.contains(outline, points)]
-        if len(covered):
-            deepest = max(deepest, float(shapely.distance(covered, outline.exterior).max()))
-    return deepest
-
-
-def tips_in_slot(beam: PreparedBeam, inputs: CamshaftInputs, side: Flank) -> Floats:
-    """Outlines (A, M, 2) of the deformed tip in the camshaft's frame at the angles of a flank."""
-    states = contact_load(beam, side.station, side.force, side.direction)
-    reach = 3.0 * (inputs.nose_station - inputs.pad_start)
-    tips = tip_outlines(beam, states, inputs.nose_station, reach)
-    around = global_points(tips, inputs.root_radius)
-    turn = np.repeat(-side.direction * side.angle, around.shape[1])
-    return rotate_vectors(around.reshape(-1, 2), turn).reshape(around.shape)
-
-
-def slot_polygon(slot: Slot) -> shapely.Polygon:
-    """The slot as a polygon, open outside the tip circle by as much as it is deep."""
-    ends = [piece_end(slot.pieces[i], -i)[0] for i in (0, -1)]
-    outside = [(2.0 - slot.bottom_radius / slot.tip_radius) * end for end in ends]
-    corners = [(float(x), float(y)) for x, y in (ends[1], outside[1], outside[0], ends[0])]
-    opening = tuple(Line(a, b) for a, b in pairwise(corners))
-    return shapely.Polygon(contour_points(Outline((*slot.pieces, *opening)), _CHORD))
-
-
-def _tooth_thickness(slot: Slot, count: int) -> float:
-    """Smallest distance between a slot and the next."""
-    space = slot_polygon(slot)
-    pitch = 2.0 * np.pi / count
-    return float(space.distance(shapely.affinity.rotate(space, pitch, (0, 0), use_radians=True)))
