@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from springcad.geometry.polyline import BulgePolyline, rotate_vectors
 from springcad.kinds.judging import snapped
 from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
+from springcad.kinds.rotary_flexure.root_compliance import surface_stress
 from springcad.mechanics.conjugate import Flank
 from springcad.mechanics.fem.assembly import Sheet, prepare_solid
 from springcad.mechanics.fem.blocks import graded, join, straight, transfinite
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints, tie
 from springcad.mechanics.fem.mesh import Mesh
 from springcad.mechanics.fem.newton import Load, linear_solution, prepare_model
-from springcad.mechanics.fem.recovery import edge_stress
 
 Floats = NDArray[np.float64]
 
@@ -92,7 +92,7 @@ def tooth_stress(mesh: Mesh, sheet: Sheet, count: int, force: Floats, point: Flo
     load[2 * nearest : 2 * nearest + 2] = force
     state = linear_solution(model, Load(load, np.zeros(mesh.unknowns)))
     middles = mesh.nodes[mesh.edge_sets["sides"][:, 1]]
-    stress = edge_stress(model.solid, state.displacement, "sides")
+    stress = surface_stress(mesh, sheet.elastic_modulus, state.displacement, "sides")
     return Pushed(np.hypot(*middles.T), stress.mean(axis=1))
 
 

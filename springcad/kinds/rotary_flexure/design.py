@@ -9,8 +9,10 @@ from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
 from springcad.kinds.rotary_flexure.checks import spring_checks
 from springcad.kinds.rotary_flexure.feasibility import Case, failures, require_feasible
+from springcad.kinds.rotary_flexure.full_load import DIRECTIONS
 from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
 from springcad.kinds.rotary_flexure.law import design_law
+from springcad.kinds.rotary_flexure.overrange import end_of_use
 from springcad.kinds.rotary_flexure.response import stroke
 from springcad.kinds.rotary_flexure.ring import Dowels, ring_profile
 from springcad.kinds.rotary_flexure.sizing import size_flexure
@@ -97,6 +99,10 @@ def _spring(
         stroke(ribbon, sized.beam, camshaft, inputs, direction, spec.camshaft.friction)
         for direction in (-1, 1)
     )
+    forward, backward = (
+        end_of_use(ribbon, sized.beam, camshaft, inputs, direction, case.yield_strength)
+        for direction in DIRECTIONS
+    )
     return Spring(
         spec=spec,
         case=case,
@@ -108,6 +114,7 @@ def _spring(
         camshaft_inputs=inputs,
         camshaft=camshaft,
         strokes=(counter_clockwise, clockwise),
+        ends=(forward, backward),
         mass=profile_area(ring) * case.inputs.thickness * spec.material.values.density.value,
     )
 

@@ -47,6 +47,8 @@ def joint_response(spring: Spring) -> dict[str, Value]:
         "max_deflection_rad": stack.series,
         "max_torque_Nm": stack.parallel,
         "energy_J": stack.sheets,
+        "usable_angle_rad": stack.series,
+        "usable_torque_Nm": stack.parallel,
         "angle_rad": stack.series,
         "torque_Nm": stack.parallel,
         "stored_energy_J": stack.sheets,

@@ -8,6 +8,7 @@ from springcad.geometry.outline import Profile
 from springcad.kinds.rotary_flexure.camshaft import Camshaft, CamshaftInputs
 from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.law import DesignLaw
+from springcad.kinds.rotary_flexure.overrange import EndOfUse
 from springcad.kinds.rotary_flexure.response import Stroke
 from springcad.kinds.rotary_flexure.search import Found
 from springcad.kinds.rotary_flexure.sizing import Sized
@@ -30,6 +31,7 @@ class Spring:
         ring: the flexure ring.
         camshaft_inputs, camshaft: the camshaft.
         strokes: counter-clockwise, clockwise.
+        ends: how far it may be turned, counter-clockwise and clockwise.
         mass: of the ring.
     """
 
@@ -43,12 +45,18 @@ class Spring:
     camshaft_inputs: CamshaftInputs
     camshaft: Camshaft
     strokes: tuple[Stroke, Stroke]
+    ends: tuple[EndOfUse, EndOfUse]
     mass: float
 
     @property
     def stack(self) -> Stack:
         """The sheets of the joint, of which this is one."""
         return self.case.stack
+
+    @property
+    def end(self) -> EndOfUse:
+        """How far it may be turned whichever way."""
+        return min(self.ends, key=lambda end: end.angle)
 
     @property
     def found(self) -> Found:

@@ -97,6 +97,10 @@ def _outcomes(spring: Spring) -> tuple[Outcome, ...]:
                 "the smaller of both directions"),
         Outcome("contact pressure", number("peak_contact_pressure_Pa"), "Pa"),
         Outcome("force on a tip", law.force, "N"),
+        Outcome("sliding of a tip, one way", number("sliding_path_m"), "m", None,
+                f"{0.1 * number('loss_per_friction_J') / number('energy_J'):.1%} of the energy is "
+                "lost in a cycle for each 0.1 of friction"),
+        Outcome("usable to, either way", spring.end.angle, "rad", None, f"then {spring.end.limit}"),
         Outcome("serpentine factor", law.serpentine_factor, "1", None, "004, section II-B"),
         Outcome("density factor", law.density_factor, "1", None, "004, section II-B"),
         Outcome("energy per mass", number("energy_J") / spring.mass, "J/kg", None, "ring alone"),
