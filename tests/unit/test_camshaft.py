@@ -202,7 +202,7 @@ def test_teeth_and_deformed_tips_touch_but_do_not_cut(spring: object, index: int
 def test_the_drawn_camshaft_follows_the_law_in_both_directions(spring: object) -> None:
     """Exact where the flank is conjugate, up to the deflection; near rest its arc costs < 0.1 %.
 
-    The arcs of the drawing, within 36 nm of the flank, cost up to 0.05 % of full torque.
+    The arcs of the drawing, within 18 nm of the flank, cost less of full torque.
     """
     beam, inputs = spring()  # type: ignore[operator]
     cam = design_camshaft(beam, inputs)
@@ -214,7 +214,7 @@ def test_the_drawn_camshaft_follows_the_law_in_both_directions(spring: object) -
         assert np.max(np.abs(found.torque - law)) < 1e-3 * law[-1]
         assert exact_from < 0.3 * inputs.deflection
         drawn = seated(beam, inputs, cam, side)
-        assert np.max(np.abs(drawn.torque - found.torque)) < 0.6e-3 * law[-1]
+        assert np.max(np.abs(drawn.torque - found.torque)) < 0.5e-3 * law[-1]
 
 
 def test_friction_loses_what_sliding_dissipates() -> None:
