@@ -23,6 +23,7 @@ from springcad.kinds.rotary_flexure.calibration import calibrate_spring
 from springcad.kinds.rotary_flexure.drawn_parts import parts
 from springcad.kinds.rotary_flexure.inputs import case_of, joint_target_of, target_of
 from springcad.kinds.rotary_flexure.joint import joint_design, joint_response
+from springcad.kinds.rotary_flexure.law import straight_deflection
 from springcad.kinds.rotary_flexure.sector_contact import sector_contact, torque, turn_through
 from springcad.kinds.rotary_flexure.stack import stack_of
 from springcad.kinds.rotary_flexure.written_spring import written_spring
@@ -97,6 +98,17 @@ def test_law_of_a_sheet_is_the_derivative_of_its_energy() -> None:
     np.testing.assert_allclose(slope, law.torque(angle), rtol=1e-7)
     bend = (law.torque(angle + step) - law.torque(angle - step)) / (2.0 * step)
     np.testing.assert_allclose(bend, law.stiffness(angle), rtol=1e-7)
+
+
+def test_straight_flexures_turn_further_in_series_than_in_parallel() -> None:
+    """Eq. 11 of 004 at the stiffness of the joint: m^(2/3) against m^(1/3) times one sheet."""
+
+    def angle(stiffness: float, thickness: float) -> float:
+        return float(straight_deflection(stiffness, 22e-3, 5.5e-3, 25, thickness, 750e6, 200e9))
+
+    one = angle(24.0, 1.5e-3)
+    assert angle(24.0, 3 * 1.5e-3) == pytest.approx(3 ** (1 / 3) * one)
+    assert 3 * angle(3 * 24.0, 1.5e-3) == pytest.approx(3 ** (2 / 3) * one)
 
 
 def test_free_play_adds_in_series() -> None:
