@@ -21,7 +21,8 @@ from springcad.kinds.rotary_flexure.written_spring import WrittenSpring, written
 from springcad.mechanics.fem.assembly import edge_load, prepare_solid
 from springcad.mechanics.fem.deck import slice_deck
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load, State, linear_solution, prepare_model, solve_path
+from springcad.mechanics.fem.model import Load, State, prepare_model
+from springcad.mechanics.fem.newton import linear_solution, solve_path
 from springcad.verify.read_design import read_design
 
 SECONDS = 5.0

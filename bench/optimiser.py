@@ -29,11 +29,8 @@ from startup import startup_times
 from threadpoolctl import threadpool_limits
 
 from springcad.geometry.ribbon import Ribbon
-from springcad.kinds.rotary_flexure.control_points import (
-    WEIGHTS,
-    Weighting,
-    optimise_control_points,
-)
+from springcad.kinds.rotary_flexure.control_point_problem import WEIGHTS, Weighting
+from springcad.kinds.rotary_flexure.control_points import optimise_control_points
 from springcad.kinds.rotary_flexure.curvature_form import optimise
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
 from springcad.kinds.rotary_flexure.shape import curvature_ribbon

@@ -65,7 +65,8 @@ def _runner(command: list[str], directory: Path) -> Run:
     def run(
         *arguments: str | Path, cwd: Path | None = None, env: dict[str, str] | None = None
     ) -> subprocess.CompletedProcess[str]:
-        kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT", "LD_LIBRARY_PATH")
+        # With PYTHONPATH the process runs the very code that the tests import.
+        kept = ("PATH", "PYTHONPATH", "HOME", "TMPDIR", "SYSTEMROOT", "LD_LIBRARY_PATH")
         plain = {name: os.environ[name] for name in kept if name in os.environ}
         return subprocess.run(
             [*command, *map(str, arguments)],

@@ -11,7 +11,7 @@ from springcad.mechanics.fem.assembly import Sheet, prepare_solid
 from springcad.mechanics.fem.blocks import join
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import prepare_model
+from springcad.mechanics.fem.model import prepare_model
 
 STEEL = Sheet(200e9, 0.3, 4.5e-3)
 

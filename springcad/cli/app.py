@@ -12,6 +12,7 @@ from springcad.cli.check import check
 from springcad.cli.compensate import compensate
 from springcad.cli.design import design
 from springcad.cli.doctor import doctor
+from springcad.cli.explain import explain
 from springcad.cli.init import init
 from springcad.cli.kinds import kinds
 from springcad.cli.materials import materials_app
@@ -36,6 +37,7 @@ app = typer.Typer(
 for _command in (
     design,
     check,
+    explain,
     verify,
     compensate,
     calibrate,

@@ -8,7 +8,7 @@ import typer
 
 from springcad.cli.console import result_console, say
 from springcad.cli.failures import Format, failure_text, worst
-from springcad.cli.options import ProblemFormat, Specs
+from springcad.cli.options import Overrides, ProblemFormat, Specs
 from springcad.errors import InfeasibleError, SpringcadError
 
 if TYPE_CHECKING:
@@ -16,14 +16,15 @@ if TYPE_CHECKING:
     from springcad.result import Check
 
 
-def check(specs: Specs, form: ProblemFormat = Format.text) -> None:
+def check(specs: Specs, overrides: Overrides = None, form: ProblemFormat = Format.text) -> None:
     """Test quickly whether a design can exist.
 
     Reads the specs and checks them with closed forms; optimises nothing, writes nothing.
     """
     from springcad.batch.specs import read_specs
 
-    raise typer.Exit(worst([_check(reading, form) for reading in read_specs(specs, ())]))
+    readings = read_specs(specs, overrides or ())
+    raise typer.Exit(worst([_check(reading, form) for reading in readings]))
 
 
 def _check(reading: Reading, form: Format) -> int:

@@ -22,14 +22,9 @@ def result_console() -> Console:
     """A rich console on stdout: no markup in texts, no colour and a fixed width in files."""
     from rich.console import Console
 
-    class _Console(Console):
-        def on_broken_pipe(self) -> None:
-            """Leave it to ``springcad.cli.run``, which knows the exit code."""
-            raise
-
     is_fixed = not sys.stdout.isatty() and "COLUMNS" not in os.environ
     width = _WIDTH_OF_A_FILE if is_fixed else None
-    return _Console(file=sys.stdout, markup=False, emoji=False, highlight=False, width=width)
+    return Console(file=sys.stdout, markup=False, emoji=False, highlight=False, width=width)
 
 
 def say(text: str) -> None:

@@ -11,7 +11,7 @@ import typer
 
 from springcad.cli.console import plain, progress_shown, result_console, say
 from springcad.cli.failures import Format, failure_data, failure_text, worst
-from springcad.cli.options import Json, ProblemFormat, Specs
+from springcad.cli.options import Json, Overrides, ProblemFormat, Specs
 
 if TYPE_CHECKING:
     from springcad.batch.design_one import Attempt
@@ -22,10 +22,7 @@ def design(
     out: Annotated[
         Path, typer.Option("--out", "-o", help="Folder for the results; each design gets its own.")
     ] = Path("out"),
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Replace a value: target.deflection=12deg"),
-    ] = None,
+    overrides: Overrides = None,
     as_json: Json = False,
     strict: Annotated[bool, typer.Option("--strict", help="Warnings count as failures.")] = False,
     no_verify: Annotated[

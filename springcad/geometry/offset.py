@@ -1,4 +1,4 @@
-"""The two edges of a curved ribbon of varying thickness.
+"""Offset curves: the two edges of a curved ribbon of varying thickness, and pieces moved sideways.
 
 With the centre line p(s), its tangent t, left normal n and curvature κ (n' = -κ t), the edges are
 p ± λ n and their derivatives (1 ∓ κ λ) t ± λ' n. An edge folds over where |κ| λ reaches 1.
@@ -6,9 +6,11 @@ p ± λ n and their derivatives (1 ∓ κ λ) t ± λ' n. An edge folds over whe
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from springcad.geometry.outline import Curve, Floats
+from springcad.geometry.outline import Arc, Curve, Floats, Line, Piece
 
 
 def fold_over(curvature: Floats, half_thickness: Floats) -> float:
@@ -47,3 +49,29 @@ def ribbon_edges(
         return Curve(centre_line + (side * half_thickness)[:, None] * normals, unit)
 
     return edge(1.0), edge(-1.0)
+
+
+def sideways(piece: Piece, distance: float) -> Piece:
+    """A piece of an outline moved along its normal to the right of the direction of travel.
+
+    The material of an outer contour, run counter-clockwise, lies on its left: so much of it, in
+    metres, is left on, or taken off where ``distance`` is negative.
+
+    Raises:
+        ValueError: an arc with its centre on the right is smaller than the distance, or one with
+            its centre on the left smaller than what is taken off.
+    """
+    match piece:
+        case Line(start, end):
+            length = math.dist(start, end)
+            x = distance * (end[1] - start[1]) / length
+            y = distance * (start[0] - end[0]) / length
+            return Line((start[0] + x, start[1] + y), (end[0] + x, end[1] + y))
+        case Arc(center, radius, start_angle, sweep):
+            moved = radius + math.copysign(1.0, sweep) * distance
+            if moved <= 0.0:
+                raise ValueError(f"an arc of {radius} m cannot be moved by {distance} m")
+            return Arc(center, moved, start_angle, sweep)
+        case Curve(points, tangents):
+            right = np.column_stack([tangents[:, 1], -tangents[:, 0]])
+            return Curve(points + distance * right, tangents)

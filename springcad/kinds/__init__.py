@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Protocol, cast
 if TYPE_CHECKING:
     from springcad.kinds.calibrating import Calibration, Stiffness
     from springcad.result import Check, Judgement, Progress, Result
+    from springcad.sheet import Sheet
     from springcad.spec.common import CommonSpec
     from springcad.spec.source import Spec
     from springcad.spec.torque_curve import TorqueFile
@@ -50,6 +51,10 @@ class Kind(Protocol):
 
     def design_spec(self, spec: Spec, progress: Progress) -> Result:
         """The whole design; raises ``InfeasibleError`` when no part can meet the spec."""
+        ...
+
+    def explain_spec(self, spec: Spec, progress: Progress) -> Sheet:
+        """The calculation sheet of the design, up to where it is refused if it is."""
         ...
 
     def judge_design(self, design: WrittenDesign, progress: Progress) -> Judgement:

@@ -6,7 +6,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from springcad.geometry.polyline import BulgePolyline, flatten
+from springcad.geometry.polyline import BulgePolyline, flatten, signed_area
+from springcad.written import IncompleteDesignError, WrittenDesign
 
 Floats = NDArray[np.float64]
 
@@ -18,6 +19,14 @@ _CHORD = 1e-8
 def snapped(value: float) -> float:
     """Six digits: what differs beyond them between linear algebra libraries says nothing."""
     return float(f"{value:.5e}")
+
+
+def drawn_outline(written: WrittenDesign, part: str, suffix: str = "") -> BulgePolyline:
+    """The outer contour of a part's drawing; IncompleteDesignError where there is none."""
+    contours = written.contours.get(suffix, ())
+    if not contours:
+        raise IncompleteDesignError(f"the drawing of the {part} lacks its contour")
+    return max(contours, key=lambda line: abs(signed_area(line)))
 
 
 def distance_from(outline: BulgePolyline, points: Floats) -> float:

@@ -74,9 +74,13 @@ def remedies(
 ) -> tuple[str, ...]:
     """Changes after which nothing fails: of one number, or of several where no single one helps.
 
-    ``failures`` names what fails for a case. Every remedy returned was tried as printed; the
-    smallest changes come first. Empty when nothing within a factor of FURTHEST was found.
+    ``failures`` names what fails for a case; of one that no spec may state it must name more than
+    of ``case``, so that it is not taken for a step on the way. Every remedy returned was tried as
+    printed; the smallest changes come first. Empty when nothing within a factor of FURTHEST was
+    found, and when nothing fails.
     """
+    if not failures(case):
+        return ()
     singles = _turns(case, knobs, lambda tried: not failures(tried))
     if singles:
         return tuple(str(turn) for turn in singles[:MOST])
@@ -125,7 +129,7 @@ def _turns(case: Case, knobs: Sequence[Knob], works: Callable[[Case], bool]) -> 
 def _turn(case: Case, knob: Knob, way: int, works: Callable[[Case], bool]) -> Turn | None:
     """The nearest value in one direction that works, and how far on it goes on working."""
     start = value_of(case, knob)
-    if start == 0.0:
+    if start <= 0.0:
         return None
     digits = 0 if not knob.unit else 2 - math.floor(math.log10(start))
 
@@ -143,7 +147,7 @@ def _turn(case: Case, knob: Knob, way: int, works: Callable[[Case], bool]) -> Tu
         return inside
 
     here = start * 10.0**digits
-    end = round(here * FURTHEST**way)
+    end = max(1, round(here * FURTHEST**way))
     stride = way * max(1, round(STRIDE * here))
     indices = range(math.floor(here) + 1 if way > 0 else math.ceil(here) - 1, end + way, stride)
     before = round(here)

@@ -124,9 +124,13 @@ def conjugate_flank(
 
 def between(flank: Flank, first: float, last: float) -> Flank:
     """The flank from one angle to another (rad, magnitudes)."""
-    within = (flank.angle >= first) & (flank.angle <= last)
+    return at_rows(flank, np.flatnonzero((flank.angle >= first) & (flank.angle <= last)))
+
+
+def at_rows(flank: Flank, rows: NDArray[np.intp]) -> Flank:
+    """The flank at some of its angles."""
     columns = {
-        field.name: getattr(flank, field.name)[within]
+        field.name: getattr(flank, field.name)[rows]
         for field in fields(flank)
         if field.name != "direction"
     }

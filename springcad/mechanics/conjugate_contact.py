@@ -167,22 +167,27 @@ def _close(part: ElasticPart, law: TorqueLaw, old: Trial, new: Trial) -> Trial:
 
 
 def _nearest(part: ElasticPart, law: TorqueLaw, ladder: list[Trial]) -> tuple[Trial, Trial]:
-    """The trial with the smallest |excess|, or one of the other sign; before it the rung below."""
-    excess = np.stack([trial.excess for trial in ladder])
-    best = _smallest(np.abs(excess))
-    sign = np.sign(_pick(ladder, best).excess)
+    """A trial of the other sign, or that with the smallest |excess|, and the trial before it."""
+    best = _smallest(np.abs(np.stack([trial.excess for trial in ladder])))
     last = len(ladder) - 1
     left, middle, right = (_pick(ladder, np.clip(best + i, 0, last)) for i in (-1, 0, 1))
-    below = left
+    sign, rows = np.sign(middle.excess), np.arange(len(best))
+    before, found = left.at(rows), middle.at(rows)
     for _ in range(_HALVINGS):
         inner = [
-            balance(part, law, 0.5 * (a.station + b.station), middle.force)
+            balance(part, law.at(rows), 0.5 * (a.station + b.station), middle.force)
             for a, b in ((left, middle), (middle, right))
         ]
         trials = [left, inner[0], middle, inner[1], right]
-        best = 1 + _smallest(np.stack([sign * trial.excess for trial in trials[1:4]]))
+        best = 1 + _smallest(np.stack([sign[rows] * trial.excess for trial in trials[1:4]]))
         left, middle, right = (_pick(trials, best + i) for i in (-1, 0, 1))
-    return below, middle
+        _put(before, rows, left)
+        _put(found, rows, middle)
+        on = np.flatnonzero(~(sign[rows] * middle.excess < 0.0))
+        rows, left, middle, right = rows[on], left.at(on), middle.at(on), right.at(on)
+        if not len(rows):
+            break
+    return before, found
 
 
 def _smallest(values: Floats) -> NDArray[np.intp]:
@@ -201,5 +206,6 @@ def _pick(trials: Sequence[Trial], index: NDArray[np.intp]) -> Trial:
 
 
 def _put(into: Trial, rows: NDArray[np.intp], trial: Trial) -> None:
+    """Write the trial into some of the angles."""
     into.station[rows], into.force[rows] = trial.station, trial.force
     into.excess[rows] = trial.excess

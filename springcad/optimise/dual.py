@@ -42,29 +42,45 @@ class Dual:
 
     def __mul__(self, other: Dual | Floats | float) -> Dual:
         if isinstance(other, Dual):
+            value = self.value * other.value
+            if not self.gradient.shape[1]:
+                return _bare(value)
             product = self.value[:, None] * other.gradient
             product += other.value[:, None] * self.gradient
-            return Dual(self.value * other.value, product)
+            return Dual(value, product)
         factor = np.asarray(other, dtype=np.float64)
         return Dual(self.value * factor, self.gradient * factor[..., None])
 
     __rmul__ = __mul__
 
-    def __getitem__(self, rows: slice | NDArray[np.intp]) -> Dual:
+    def __getitem__(self, rows: slice | list[int] | NDArray[np.intp]) -> Dual:
         return Dual(self.value[rows], self.gradient[rows])
 
     def through(self, value: Floats, slope: Floats) -> Dual:
         """f(self), given the values of f and of its derivative (N,)."""
-        return Dual(value, slope[:, None] * self.gradient)
+        return (
+            Dual(value, slope[:, None] * self.gradient) if self.gradient.shape[1] else _bare(value)
+        )
 
     @property
     def bare(self) -> Dual:
         """The values alone, as a dual of no variables: arithmetic on it costs little."""
-        return Dual(self.value, np.zeros((len(self.value), 0)))
+        return _bare(self.value)
 
     def mapped(self, matrix: Floats) -> Dual:
         """``matrix`` (M, N) applied to the values and to every derivative."""
-        return Dual(matrix @ self.value, matrix @ self.gradient)
+        value = matrix @ self.value
+        return Dual(value, matrix @ self.gradient) if self.gradient.shape[1] else _bare(value)
+
+
+def _bare(value: Floats) -> Dual:
+    """Values (N,) without variables. Operations make it at once: even empty products take time."""
+    return Dual(value, np.empty((len(value), 0)))
+
+
+def variables(values: Floats) -> Dual:
+    """All variables (V,) of a problem at once."""
+    return Dual(values, np.eye(len(values)))
 
 
 def linear(matrix: Floats, variables: Floats, at: slice) -> Dual:

@@ -32,6 +32,8 @@ _DISPLAY_UNITS = {
     "1": DisplayUnit(1.0, ""),
     "m": DisplayUnit(1e3, "mm"),
     "m^2": DisplayUnit(1e6, "mm^2"),
+    "m^3": DisplayUnit(1e9, "mm^3"),
+    "m^4": DisplayUnit(1e12, "mm^4"),
     "1/m": DisplayUnit(1e-3, "1/mm"),
     "rad": DisplayUnit(180 / math.pi, "deg"),
     "Pa": DisplayUnit(1e-6, "MPa"),

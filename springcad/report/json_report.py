@@ -41,7 +41,7 @@ def result_to_dict(result: Result, files: Mapping[str, str]) -> dict[str, Any]:
         "files": files,
         "provenance": result.provenance,
     }
-    return {key: _plain(value) for key, value in document.items()}
+    return {key: plain_value(value) for key, value in document.items()}
 
 
 def judgement_to_dict(judgement: Judgement | None) -> dict[str, Any]:
@@ -50,8 +50,8 @@ def judgement_to_dict(judgement: Judgement | None) -> dict[str, Any]:
         return {"method": None}
     return {
         "method": judgement.method,
-        **_plain(judgement.figures),
-        "comparisons": [_plain(_comparison(entry)) for entry in judgement.comparisons],
+        **plain_value(judgement.figures),
+        "comparisons": [plain_value(_comparison(entry)) for entry in judgement.comparisons],
     }
 
 
@@ -76,20 +76,21 @@ def result_to_json(result: Result, files: Mapping[str, str]) -> str:
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
-def _plain(value: object) -> Any:
+def plain_value(value: object) -> Any:
+    """As plain dicts, lists, strings and numbers, in the way of ``result_to_dict``."""
     match value:
         case None | bool() | str():
             return value
         case np.ndarray() | np.generic():
-            return _plain(value.tolist())
+            return plain_value(value.tolist())
         case int():
             return value
         case float():
             return _rounded(value)
         case Mapping():
-            return {str(key): _plain(item) for key, item in value.items()}
+            return {str(key): plain_value(item) for key, item in value.items()}
         case list() | tuple():
-            return [_plain(item) for item in value]
+            return [plain_value(item) for item in value]
     raise TypeError(f"a report cannot hold a {type(value).__name__}")
 
 

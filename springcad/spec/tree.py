@@ -1,13 +1,11 @@
 """YAML text to a plain tree of values, each with its line and column; hostile YAML is refused.
 
 The events of ruamel.yaml's pure Python parser are checked one by one before anything is built from
-them, so that neither nesting, nor aliases, nor merge keys can cost memory, time or stack. Scalars
-are read by the core schema of YAML 1.2: ``no`` and ``12:30`` are text, ``012`` is 12.
+them, so that neither nesting, nor aliases, nor merge keys can cost memory, time or stack.
 """
 
 from __future__ import annotations
 
-import math
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping
@@ -29,6 +27,7 @@ from ruamel.yaml.events import (
 )
 
 from springcad.errors import Problem
+from springcad.spec.scalar import read_plain
 from springcad.spec.text import UNSAFE, printable
 
 MAX_LINES = 20_000
@@ -281,34 +280,6 @@ class _Builder:
             if depth == 0:
                 return
             event = None
-
-
-_NOT_FINITE = re.compile(r"[-+]?\.?(nan|inf|infinity)", re.IGNORECASE)
-_INTEGER = re.compile(r"[-+]?[0-9]+")
-_FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
-_BASED = {"0o": 8, "0x": 16}
-_WORDS: Mapping[str, bool | None] = {
-    "": None, "~": None, "null": None, "Null": None, "NULL": None,
-    "true": True, "True": True, "TRUE": True, "false": False, "False": False, "FALSE": False,
-}  # fmt: skip
-
-
-def read_plain(text: str) -> str | int | float | bool | None:
-    """An unquoted scalar by the core schema of YAML 1.2 (10.3.2); ValueError if not finite."""
-    if text in _WORDS:
-        return _WORDS[text]
-    if _NOT_FINITE.fullmatch(text):
-        raise ValueError("must be a finite number")
-    if _INTEGER.fullmatch(text):
-        return int(text)
-    if re.fullmatch("0o[0-7]+|0x[0-9a-fA-F]+", text):
-        return int(text[2:], _BASED[text[:2]])
-    if _FLOAT.fullmatch(text):
-        number = float(text)
-        if not math.isfinite(number):
-            raise ValueError("must be a finite number")
-        return number
-    return text
 
 
 def dotted(path: Path) -> str:

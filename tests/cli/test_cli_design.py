@@ -6,6 +6,7 @@ import hashlib
 import json
 import re
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -243,6 +244,32 @@ def test_check_tells_whether_a_design_can_exist(
     assert (run.returncode, run.stderr) == (exit_code, "")
     assert ("make it smaller" in run.stdout) == (exit_code == 4)
     assert [path.name for path in tmp_path.iterdir()] == [spec]
+
+
+def test_check_takes_the_overrides_of_design(springcad: Run, tmp_path: Path) -> None:
+    spec = write_spec(tmp_path, "knee", size="200 mm")
+    assert springcad("check", spec).returncode == 4
+    assert springcad("check", spec, "--set", "size=20mm").returncode == 0
+    wrong = [springcad(command, spec, "--set", "size=x") for command in ("check", "design")]
+    assert {(run.returncode, run.stderr) for run in wrong} == {(3, wrong[0].stderr)}
+
+
+def test_every_spec_is_designed_though_nobody_reads_on(tmp_path: Path) -> None:
+    """``springcad design good.yaml failing.yaml | head -1``: files and exit code as ever."""
+    specs = [write_spec(tmp_path, "knee"), write_spec(tmp_path, "ankle", "fail")]
+    run = subprocess.Popen(
+        [sys.executable, Path(__file__).with_name("fake_springcad.py"), "design", *specs],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        cwd=tmp_path,
+    )
+    assert run.stdout is not None
+    run.stdout.close()
+    assert run.wait() == 5
+    assert run.stderr is not None
+    assert run.stderr.read() == b""
+    run.stderr.close()
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"knee", "ankle"}
 
 
 def test_preflight_of_a_written_drawing(springcad: Run, tmp_path: Path) -> None:

@@ -8,7 +8,8 @@ from fem_cases import STEEL, arch, grid
 from springcad.mechanics.fem.assembly import prepare_solid
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints
 from springcad.mechanics.fem.element import gauss_points, shape_functions
-from springcad.mechanics.fem.newton import linear_solution, no_load, prepare_model, solve_path
+from springcad.mechanics.fem.model import no_load, prepare_model
+from springcad.mechanics.fem.newton import linear_solution, solve_path
 from springcad.mechanics.fem.recovery import gauss_stress, nodal_stress
 
 

@@ -10,11 +10,8 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from springcad.geometry.neighbours import neighbour_gaps
-from springcad.kinds.rotary_flexure.control_points import (
-    ControlPointProblem,
-    optimise_control_points,
-    start_point,
-)
+from springcad.kinds.rotary_flexure.control_point_problem import ControlPointProblem
+from springcad.kinds.rotary_flexure.control_points import optimise_control_points, start_point
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
 
 S2 = FlexureProblem(

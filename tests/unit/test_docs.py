@@ -248,9 +248,7 @@ def test_every_key_of_the_report_is_documented_and_none_else(
 
 
 @pytest.mark.slow
-def test_claims_in_prose_hold_for_the_shipped_specs(
-    s2: Path, run_springcad: Callable[..., subprocess.CompletedProcess[str]]
-) -> None:
+def test_claims_in_prose_hold_for_the_shipped_specs(s2: Path) -> None:
     """The design stress at full load within 0.5 %; one warning; arcs near rest below 1 µm."""
     report = json.loads((s2 / "report.json").read_text(encoding="utf-8"))
     assert report["response"]["peak_nominal_stress_Pa"] == pytest.approx(912e6, rel=5e-3)
@@ -258,8 +256,6 @@ def test_claims_in_prose_hold_for_the_shipped_specs(
     assert [check["name"] for check in report["checks"] if check["status"] == "warn"] == [
         "root fillet stress against yield",
     ]
-    strict = run_springcad("design", ROOT / "specs/S2.yaml", "--strict", "--no-verify")
-    assert strict.returncode == 5
 
 
 def test_the_readme_names_every_kind_and_none_else() -> None:

@@ -14,7 +14,8 @@ from springcad.mechanics.fem.contact import (
     prepare_contact,
 )
 from springcad.mechanics.fem.contact_tangent import contact_tangent, turning_force
-from springcad.mechanics.fem.newton import Load, prepare_model, solve_path
+from springcad.mechanics.fem.model import Load, prepare_model
+from springcad.mechanics.fem.newton import solve_path
 from springcad.mechanics.fem.rigid_profile import project, rigid_profile
 
 

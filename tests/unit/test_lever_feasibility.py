@@ -10,14 +10,13 @@ import numpy as np
 import pytest
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.lever_arm.feasibility import (
+from springcad.kinds.lever_arm.estimate import (
     SHEETS,
     estimated_stiffness,
-    feasibility_checks,
     full_thickness,
-    require_feasible,
     sheet_for,
 )
+from springcad.kinds.lever_arm.feasibility import feasibility_checks, require_feasible
 from springcad.kinds.lever_arm.inputs import case_of, fittings_of, lever_spec
 from springcad.kinds.lever_arm.sizing import size_leaf
 from springcad.kinds.lever_arm.straight_part import leaf_profile

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from lever_cases import FITTINGS
 
 from springcad.geometry.biarc import exact_polyline
 from springcad.geometry.outline import Circle
@@ -18,24 +19,12 @@ from springcad.kinds.lever_arm.curved_foot import Room
 from springcad.kinds.lever_arm.curved_part import curved_profile, hub_radius
 from springcad.kinds.lever_arm.design import design_joint
 from springcad.kinds.lever_arm.omega import OmegaLeaf, half_ribbon, half_start
-from springcad.kinds.lever_arm.straight import Fittings
 from springcad.spec.source import read_spec
 
 SPECS = Path(__file__).parents[2] / "specs"
 WALL = 50e-3
 CORRIDOR = 9.5e-3
 """The leaves were found for 12 mm: this and the room that the feet need for their fillets."""
-FITTINGS = Fittings(
-    pin_diameter=4e-3,
-    eye_wall=2e-3,
-    eye_fillet=1e-3,
-    root_fillet=1e-3,
-    min_web=1e-3,
-    block_length=12e-3,
-    block_height=0.0,
-    hole_count=2,
-    hole_diameter=4e-3,
-)
 FOLDED = OmegaLeaf(
     angle_coefficients=np.array(
         [-0.78623608, 0.5987827, 2.87488603, 1.67232378, -1.17328904, -1.22001967, -0.52307329,

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
+from lever_cases import STEEL
 
 from springcad.kinds.lever_arm.omega import (
-    OmegaCase,
     OmegaLeaf,
     half_ribbon,
     half_start,
@@ -19,17 +20,7 @@ from springcad.kinds.lever_arm.omega_problem import ExactProblem, linear_problem
 from springcad.kinds.lever_arm.omega_starts import start_point
 from springcad.optimise.sqp import Evaluation, Problem
 
-CASE = OmegaCase(
-    enclosure_radius=50e-3,
-    stroke=10e-3,
-    elastic_modulus=210e9,
-    poisson_ratio=0.3,
-    allowable_stress=950e6,
-    min_web=0.3e-3,
-    min_gap=0.3e-3,
-    hub_radius=5e-3,
-    topology="omega",
-)
+CASE = replace(STEEL, topology="omega")
 
 
 def together(at: Evaluation) -> np.ndarray:

@@ -23,7 +23,8 @@ from springcad.mechanics.fem.assembly import Sheet, edge_load, prepare_solid
 from springcad.mechanics.fem.blocks import smallest_scaled_jacobian
 from springcad.mechanics.fem.constraints import Equations, solve_constraints, tie
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load, linear_solution, prepare_model
+from springcad.mechanics.fem.model import Load, prepare_model
+from springcad.mechanics.fem.newton import linear_solution
 from springcad.mechanics.fem.recovery import nodal_stress, von_mises
 from springcad.mechanics.plane import rotated
 

@@ -14,7 +14,8 @@ from springcad.mechanics.dead_load import dead_load
 from springcad.mechanics.fem.assembly import Sheet, edge_load, prepare_solid
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints, tie
 from springcad.mechanics.fem.element import edge_shape_functions
-from springcad.mechanics.fem.newton import Load, linear_solution, no_load, prepare_model, solve_path
+from springcad.mechanics.fem.model import Load, no_load, prepare_model
+from springcad.mechanics.fem.newton import linear_solution, solve_path
 from springcad.mechanics.fem.recovery import nodal_stress
 
 

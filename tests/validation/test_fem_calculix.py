@@ -12,7 +12,8 @@ from springcad.mechanics.fem.contact import prepare_contact
 from springcad.mechanics.fem.deck import SLICE, slice_deck
 from springcad.mechanics.fem.deck_contact import rigid_strip
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load, linear_solution, prepare_model, solve_path
+from springcad.mechanics.fem.model import Load, prepare_model
+from springcad.mechanics.fem.newton import linear_solution, solve_path
 from springcad.mechanics.fem.rigid_profile import rigid_profile
 
 

@@ -10,12 +10,8 @@ from springcad.mechanics.contact import half_width, peak_pressure
 from springcad.mechanics.fem.assembly import edge_load, prepare_solid
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints
 from springcad.mechanics.fem.contact import prepare_contact
-from springcad.mechanics.fem.newton import (
-    Load,
-    NoEquilibriumError,
-    prepare_model,
-    solve_path,
-)
+from springcad.mechanics.fem.model import Load, prepare_model
+from springcad.mechanics.fem.newton import NoEquilibriumError, solve_path
 from springcad.mechanics.fem.rigid_profile import rigid_profile
 
 

@@ -8,7 +8,8 @@ from fem_cases import STEEL, distorted_square
 
 from springcad.mechanics.fem.assembly import prepare_solid
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints
-from springcad.mechanics.fem.newton import linear_solution, no_load, prepare_model, solve_path
+from springcad.mechanics.fem.model import no_load, prepare_model
+from springcad.mechanics.fem.newton import linear_solution, solve_path
 from springcad.mechanics.fem.recovery import gauss_stress, nodal_stress
 
 MESH = distorted_square(0.01)

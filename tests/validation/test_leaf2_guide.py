@@ -23,7 +23,8 @@ from springcad.mechanics.fem.blocks import (
 )
 from springcad.mechanics.fem.constraints import Equations, prescribe, solve_constraints
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load, linear_solution, prepare_model
+from springcad.mechanics.fem.model import Load, prepare_model
+from springcad.mechanics.fem.newton import linear_solution
 
 POISSON, GUIDE = 0.3, 4.0  # thickness and E are 1; the guide is four thicknesses long
 

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from lever_cases import FITTINGS
 from scipy.integrate import quad
 
 from springcad.geometry.outline_ops import contour_bounds, profile_area, profile_faults
-from springcad.kinds.lever_arm.straight import Fittings, StraightLeaf, half_seen, joints
+from springcad.kinds.lever_arm.straight import StraightLeaf, half_seen, joints
 from springcad.kinds.lever_arm.straight_beam import Elastic, leaf_beam, leaf_states
 from springcad.kinds.lever_arm.straight_mesh import (
     leaf_model,
@@ -21,17 +22,6 @@ from springcad.kinds.lever_arm.straight_part import leaf_profile
 from springcad.mechanics.dead_load import dead_load
 from springcad.mechanics.leaf import SHAPES, stiffness, thickness_for
 
-FITTINGS = Fittings(
-    pin_diameter=4e-3,
-    eye_wall=2e-3,
-    eye_fillet=1e-3,
-    root_fillet=1e-3,
-    min_web=1e-3,
-    block_length=12e-3,
-    block_height=0.0,
-    hole_count=2,
-    hole_diameter=4e-3,
-)
 STEEL, POM = Elastic(210e9, 0.3), Elastic(2.6e9, 0.35)
 STROKE = 10e-3
 

@@ -34,13 +34,8 @@ from springcad.mechanics.fem.assembly import Sheet, edge_load, prepare_solid
 from springcad.mechanics.fem.blocks import graded, join, straight, transfinite
 from springcad.mechanics.fem.constraints import Constraints, prescribe, solve_constraints
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import (
-    Load,
-    State,
-    linear_solution,
-    prepare_model,
-    solve_path,
-)
+from springcad.mechanics.fem.model import Load, State, prepare_model
+from springcad.mechanics.fem.newton import linear_solution, solve_path
 
 SHEET = Sheet(200e9, 0.3, 4.5e-3)
 SPRINGS = ("S1", "S2", "S3", "S4")

@@ -13,10 +13,19 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from springcad.result import Check, Judgement, Progress, Result
+    from springcad.sheet import Sheet
     from springcad.spec.source import Spec
     from springcad.written import WrittenDesign
 
-__all__ = ["SPEC_MODEL", "TEMPLATE", "check_spec", "design_spec", "judge_decks", "judge_design"]
+__all__ = [
+    "SPEC_MODEL",
+    "TEMPLATE",
+    "check_spec",
+    "design_spec",
+    "explain_spec",
+    "judge_decks",
+    "judge_design",
+]
 
 
 def check_spec(spec: Spec) -> tuple[Check, ...]:
@@ -32,6 +41,13 @@ def design_spec(spec: Spec, progress: Progress) -> Result:
     from springcad.kinds.leaf_2dof.design import design_wrist
 
     return design_wrist(spec, progress)
+
+
+def explain_spec(spec: Spec, progress: Progress) -> Sheet:
+    """The calculation sheet of the leaves and of both axes."""
+    from springcad.kinds.leaf_2dof.sheet import explain_leaves
+
+    return explain_leaves(spec, progress)
 
 
 def judge_design(design: WrittenDesign, progress: Progress) -> Judgement:

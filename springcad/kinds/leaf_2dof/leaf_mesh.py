@@ -22,15 +22,8 @@ from springcad.mechanics.fem.blocks import graded, join, spaced, straight, trans
 from springcad.mechanics.fem.constraints import Constraints, prescribe, solve_constraints
 from springcad.mechanics.fem.contact import prepare_contact
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import (
-    Load,
-    Model,
-    NoEquilibriumError,
-    State,
-    no_load,
-    prepare_model,
-    solve_path,
-)
+from springcad.mechanics.fem.model import Load, Model, State, no_load, prepare_model
+from springcad.mechanics.fem.newton import NoEquilibriumError, solve_path
 from springcad.mechanics.fem.recovery import edge_stress
 from springcad.mechanics.fem.rigid_profile import RigidProfile, rigid_profile
 

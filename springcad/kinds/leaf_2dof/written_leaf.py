@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.geometry.polyline import BulgePolyline, signed_area
+from springcad.geometry.polyline import BulgePolyline
+from springcad.kinds.judging import drawn_outline
 from springcad.kinds.leaf_2dof.leaf import Clamp, Leaf, Lever
 from springcad.written import IncompleteDesignError, WrittenDesign
 
@@ -60,9 +61,7 @@ class WrittenLeaf:
 def written_leaf(written: WrittenDesign) -> WrittenLeaf:
     """Raises IncompleteDesignError where a number or the contour is missing."""
     number = written.number
-    contours = written.contours.get("", ())
-    if not contours:
-        raise IncompleteDesignError("the drawing of the leaf lacks its contour")
+    outline = drawn_outline(written, "leaf")
     clamp = written.text("design.clamp")
     if clamp not in _CLAMPS:
         raise IncompleteDesignError(f"design.clamp {clamp!r} is not known")
@@ -85,7 +84,7 @@ def written_leaf(written: WrittenDesign) -> WrittenLeaf:
         strokes=tuple(
             _stroke(written, index + 1) for index in range(int(number("design.stroke_count")))
         ),
-        outline=max(contours, key=lambda line: abs(signed_area(line))),
+        outline=outline,
     )
 
 

@@ -13,10 +13,19 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from springcad.result import Check, Judgement, Progress, Result
+    from springcad.sheet import Sheet
     from springcad.spec.source import Spec
     from springcad.written import WrittenDesign
 
-__all__ = ["SPEC_MODEL", "TEMPLATE", "check_spec", "design_spec", "judge_decks", "judge_design"]
+__all__ = [
+    "SPEC_MODEL",
+    "TEMPLATE",
+    "check_spec",
+    "design_spec",
+    "explain_spec",
+    "judge_decks",
+    "judge_design",
+]
 
 
 def check_spec(spec: Spec) -> tuple[Check, ...]:
@@ -32,6 +41,13 @@ def design_spec(spec: Spec, progress: Progress) -> Result:
     from springcad.kinds.lever_arm.design import design_joint
 
     return design_joint(spec, progress)
+
+
+def explain_spec(spec: Spec, progress: Progress) -> Sheet:
+    """The calculation sheet of the spring and its mechanism."""
+    from springcad.kinds.lever_arm.sheet import explain_joint
+
+    return explain_joint(spec, progress)
 
 
 def judge_design(design: WrittenDesign, progress: Progress) -> Judgement:

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.kinds.judging import OUTLINE_TOLERANCE, distance_from, snapped
-from springcad.kinds.lever_arm.written_leaf import written_outline
+from springcad.kinds.judging import OUTLINE_TOLERANCE, distance_from, drawn_outline, snapped
 from springcad.result import Check, Comparison, check
 from springcad.written import WrittenDesign
 
@@ -44,7 +43,7 @@ def lies_on_drawing(written: WrittenDesign, points: Floats) -> Check:
     """That points (N, 2) [m] of the leaf which is judged are on the contour that is drawn."""
     return check(
         "second opinion: its leaf against the drawing",
-        snapped(distance_from(written_outline(written), points)),
+        snapped(distance_from(drawn_outline(written, "leaf"), points)),
         "<=",
         OUTLINE_TOLERANCE,
         "m",

@@ -158,14 +158,16 @@ def _join(half: Half, middle: Floats, room: Room, radius: float, side: float) ->
     """Of one edge: to the wall at once if that is near, else by a step."""
     length, wall = half.ribbon.length, room.wall
 
-    def inside(station: float) -> float:
-        center = half.beyond(station, side, radius)[1] - middle
-        return wall - radius - float(np.hypot(*center))
+    def inside(stations: float | Floats) -> Floats:
+        centers = half.beyond(stations, side, radius)[1] - middle
+        return np.asarray(wall - radius - np.hypot(centers[..., 0], centers[..., 1]))
 
     # From outside in: farther back the leaf may be near the wall again.
     stations = np.linspace(length + 3.0 * wall, 0.5 * length, 2000)
-    last = next((k for k, station in enumerate(stations) if inside(float(station)) > 0.0), -1)
-    station = float(brentq(inside, stations[last], stations[last - 1], xtol=1e-15))
+    last = int(np.argmax(inside(stations) > 0.0))
+    station = float(
+        brentq(lambda s: float(inside(s)), stations[last], stations[last - 1], xtol=1e-15)
+    )
     if station > length + _NEAR * radius:
         return _step(half, middle, room, radius, side)
     point, center = half.beyond(station, side, radius)

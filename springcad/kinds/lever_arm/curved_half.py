@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from springcad.geometry.outline import Arc, Line
 from springcad.geometry.ribbon import Ribbon
@@ -26,22 +26,35 @@ class Half:
     hub: float
     middle: float
 
-    def edge(self, station: float, side: float) -> tuple[Floats, Floats]:
-        """Point and unit tangent of the left (side 1) or right (-1) edge, going outwards."""
-        at = self.ribbon.at(np.array([station]))
-        along = np.array([math.cos(at.angle[0]), math.sin(at.angle[0])])
-        across = np.array([-along[1], along[0]])
-        point = self.start + np.array([at.x[0], at.y[0]]) + side * at.half_thickness[0] * across
-        bend = 1.0 - side * at.half_thickness[0] * at.curvature[0]
-        tangent = bend * along + side * at.thickness_slope[0] * across
-        return point, tangent / np.hypot(*tangent)
+    def edge(self, stations: ArrayLike, side: float) -> tuple[Floats, Floats]:
+        """Points and unit tangents (..., 2) of the left (side 1) or right (-1) edge at stations.
 
-    def beyond(self, station: float, side: float, radius: float) -> tuple[Floats, Floats]:
-        """Point of an edge, straight on beyond the end, and the centre of the circle beside it."""
-        within = min(station, self.ribbon.length)
-        point, tangent = self.edge(within, side)
-        point = point + (station - within) * tangent
-        return point, point + side * radius * np.array([-tangent[1], tangent[0]])
+        Tangents go outwards.
+        """
+        places = np.asarray(stations, dtype=np.float64)
+        at = self.ribbon.at(np.atleast_1d(places))
+        along = np.column_stack([np.cos(at.angle), np.sin(at.angle)])
+        across = _left(along)
+        points = self.start + np.column_stack([at.x, at.y])
+        points = points + (side * at.half_thickness)[:, None] * across
+        bend = 1.0 - side * at.half_thickness * at.curvature
+        tangents = bend[:, None] * along + (side * at.thickness_slope)[:, None] * across
+        tangents /= np.hypot(*tangents.T)[:, None]
+        shape = (*places.shape, 2)
+        return points.reshape(shape), tangents.reshape(shape)
+
+    def beyond(self, stations: ArrayLike, side: float, radius: float) -> tuple[Floats, Floats]:
+        """Points of an edge, straight on beyond its end, and centres of the circles beside it."""
+        places = np.asarray(stations, dtype=np.float64)
+        within = np.minimum(places, self.ribbon.length)
+        points, tangents = self.edge(within, side)
+        points = points + (places - within)[..., None] * tangents
+        return points, points + side * radius * _left(tangents)
+
+
+def _left(vectors: Floats) -> Floats:
+    """Turned by a right angle, (..., 2)."""
+    return np.stack([-vectors[..., 1], vectors[..., 0]], axis=-1)
 
 
 def arc_between(center: Floats, radius: float, start: Floats, end: Floats, side: float) -> Arc:

@@ -88,18 +88,19 @@ def _half(leaf: OmegaLeaf, fittings: Fittings) -> Half:
 def _leave_hub(half: Half, radius: float, side: float) -> tuple[Floats, float]:
     """Centre of the fillet between hub and an edge, and the station where it meets the edge."""
 
-    def outside(station: float) -> float:
-        return float(np.hypot(*half.beyond(station, side, radius)[1])) - (half.hub + radius)
+    def outside(stations: float | Floats) -> Floats:
+        centers = half.beyond(stations, side, radius)[1]
+        return np.asarray(np.hypot(centers[..., 0], centers[..., 1]) - (half.hub + radius))
 
     # The first station beside the hub: farther on the half may come near it again.
     stations = np.linspace(0.0, 0.5 * half.ribbon.length, 400)
-    beyond = next((s for s in stations if outside(float(s)) > 0.0), 0.0)
+    beyond = float(stations[np.argmax(outside(stations) > 0.0)])
     if beyond == 0.0:
         raise InfeasibleError(
             "radius of the hub, for the fillets beside it", half.hub, 0.0, "m",
             ("raise connection.eye_wall",),
         )  # fmt: skip
-    station = float(brentq(outside, 0.0, float(beyond), xtol=1e-15))
+    station = float(brentq(lambda s: float(outside(s)), 0.0, beyond, xtol=1e-15))
     return half.beyond(station, side, radius)[1], station
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from springcad import __version__
 from springcad.kinds.lever_arm.curved_judge import SHARES as OMEGA_SHARES
@@ -14,24 +15,25 @@ from springcad.kinds.lever_arm.straight_mesh import leaf_model, push_through
 from springcad.kinds.lever_arm.written_leaf import written_elastic, written_leaf
 from springcad.kinds.lever_arm.written_omega import written_omega
 from springcad.mechanics.fem.deck import SLICE, slice_deck
-from springcad.mechanics.fem.newton import Load, Model
+from springcad.mechanics.fem.model import Load, Model
 from springcad.written import WrittenDesign
+
+Floats = NDArray[np.float64]
 
 
 def judge_decks(design: WrittenDesign) -> dict[str, str]:
     """The decks of one leaf, through the deflections at which the second opinion compares.
 
-    One for each half of an omega leaf. None for a triangular leaf, whose elements differ in width
-    as plane elements of CalculiX do not.
+    One for each half of an omega leaf. The elements of a triangular leaf's side view differ in
+    width: each column of them has a section of its own, of its mean width.
 
     Raises:
         IncompleteDesignError: the report lacks what the model needs.
         NoEquilibriumError, ValueError: the leaf cannot be meshed or bent.
     """
-    shape = design.text("design.shape")
-    if shape == "omega":
+    if design.text("design.shape") == "omega":
         return _omega_decks(design)
-    return {} if shape == "triangular" else {"leaf": _straight_deck(design)}
+    return {"leaf": _straight_deck(design)}
 
 
 def _straight_deck(design: WrittenDesign) -> str:
@@ -53,6 +55,7 @@ def _straight_deck(design: WrittenDesign) -> str:
                 for step, push in enumerate(pushes, 1)
             ),
         ],
+        model.shares,
     )
 
 
@@ -103,21 +106,29 @@ def _factor(model: Model) -> float:
     return model.solid.sheet.thickness / SLICE
 
 
-def _deck(design: WrittenDesign, model: Model, loads: list[Load], notes: Iterable[str]) -> str:
+def _deck(
+    design: WrittenDesign,
+    model: Model,
+    loads: list[Load],
+    notes: Iterable[str],
+    shares: Floats | None = None,
+) -> str:
     """What the deck is, how to read its results, what our elements found, and the model."""
     return slice_deck(
         model.solid.mesh,
         model.solid.sheet,
         model.constraints,
         loads,
+        shares=shares,
         title=f"springcad {__version__}, {design.name}",
         notes=[
             f"The second opinion of springcad {__version__} on a leaf of the lever arm "
             f"{design.name},",
             "for CalculiX (ccx) and Abaqus/Standard.",
             "",
-            f"Units: m, N, Pa. Thickness: a slice of {SLICE:g} m of the stack; its forces are",
-            f"{_factor(model):.12g} times as large. Steps: one for each deflection.",
+            f"Units: m, N, Pa. Thickness: a slice of {SLICE:g} m of the leaf's width at its",
+            "clamp, elsewhere as much less as the leaf is narrower. The whole has",
+            f"{_factor(model):.12g} times the forces. Steps: one for each deflection.",
             *notes,
         ],
     )

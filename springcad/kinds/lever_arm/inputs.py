@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from springcad.kinds.lever_arm.feasibility import Case
+from springcad.kinds.lever_arm.case import Case
 from springcad.kinds.lever_arm.mechanism import Lever
 from springcad.kinds.lever_arm.spec import LeverArmSpec
 from springcad.kinds.lever_arm.straight import Fittings

@@ -18,7 +18,8 @@ from springcad.mechanics.fem.blocks import Side, join, spaced, with_middles
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints
 from springcad.mechanics.fem.element import edge_shape_functions
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load, Model, State, prepare_model, solve_path
+from springcad.mechanics.fem.model import Load, Model, State, prepare_model
+from springcad.mechanics.fem.newton import solve_path
 
 Floats = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.geometry.outline import Profile
-from springcad.kinds.lever_arm.feasibility import Case
+from springcad.kinds.lever_arm.case import Case
 from springcad.kinds.lever_arm.spec import LeverArmSpec
 from springcad.kinds.lever_arm.spring_law import SpringLaw
 from springcad.result import Check, Dimension, Outcome, Plot, Shape, Value

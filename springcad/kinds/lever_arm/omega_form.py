@@ -142,26 +142,26 @@ def reference_thickness(case: OmegaCase) -> float:
     return strain * case.enclosure_radius**2 / case.stroke
 
 
-def half_of(case: OmegaCase, variables: Floats) -> Half:
-    """The half that the variables describe."""
-    maps = basis()
+def half_of(case: OmegaCase, variables: Floats, *, slopes: bool = True) -> Half:
+    """The half that the variables describe; without ``slopes`` its values alone."""
+    maps, design = basis(), dual.variables(variables)
+    design = design if slopes else design.bare
     ratio = reference_thickness(case) / case.enclosure_radius
-    length, middle = dual.variable(variables, LENGTH), dual.variable(variables, MIDDLE)
-    angle = dual.linear(maps.angle, variables, ANGLE_RANGE)
-    start = dual.variable(variables, 0)
+    length, middle = design[[LENGTH]], design[[MIDDLE]]
+    coefficients = design[ANGLE_RANGE]
+    angle, start = coefficients.mapped(maps.angle), coefficients[[0]]
     hub = case.hub_radius / case.enclosure_radius
     start_x, start_y = hub * dual.cos(start), middle + hub * dual.sin(start)
     along_x, along_y = length * dual.cos(angle), length * dual.sin(angle)
     weights = maps.grid.weights[None, :]
-    thickness = ratio * dual.linear(np.eye(THICKNESSES), variables, THICKNESS_RANGE)
-    coefficients = dual.linear(np.eye(ANGLES), variables, ANGLE_RANGE)
+    thickness = ratio * design[THICKNESS_RANGE]
     per_length = dual.power(length, -1.0)
     return Half(
         length=length,
         middle=middle,
         angle=angle,
         start_angle=start,
-        end_angle=dual.variable(variables, ANGLES - 1),
+        end_angle=coefficients[[ANGLES - 1]],
         thickness=thickness.mapped(maps.thickness),
         x=start_x + along_x.mapped(maps.grid.cumulative),
         y=start_y + along_y.mapped(maps.grid.cumulative),

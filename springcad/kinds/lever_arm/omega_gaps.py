@@ -36,12 +36,12 @@ def self_gap(
 
 def _distances(points: Floats, line: Floats) -> Floats:
     """From each point (P, 2) to the line (S, 2) near each of its points (P, S)."""
-    tangent = np.gradient(line, axis=0)
-    spacing = np.hypot(*tangent.T)
-    tangent = tangent / spacing[:, None]
-    offset = points[:, None] - line
-    along = np.clip(np.sum(offset * tangent, axis=-1), -0.5 * spacing, 0.5 * spacing)
-    return np.asarray(np.hypot(*np.moveaxis(offset - along[..., None] * tangent, -1, 0)))
+    tx, ty = np.gradient(line, axis=0).T
+    spacing = np.hypot(tx, ty)
+    tx, ty = tx / spacing, ty / spacing
+    dx, dy = (np.subtract.outer(points[:, k], line[:, k]) for k in (0, 1))
+    along = np.clip(dx * tx + dy * ty, -0.5 * spacing, 0.5 * spacing)
+    return np.asarray(np.hypot(dx - along * tx, dy - along * ty))
 
 
 def wall_gap(half: Floats, thickness: Floats, stations: Floats, case: OmegaCase) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.lever_arm.omega import OmegaCase
+from springcad.kinds.lever_arm.omega_exact import Guess, exact_states, rest_guess
 from springcad.kinds.lever_arm.omega_form import (
     ANGLE_RANGE,
     LENGTH,
@@ -19,25 +20,18 @@ from springcad.kinds.lever_arm.omega_form import (
     half_of,
     reference_thickness,
 )
+from springcad.kinds.lever_arm.omega_pairs import halves_rows, self_rows
 from springcad.kinds.lever_arm.omega_rows import (
     bend_rows,
     corridor_rows,
     foot_row,
-    halves_rows,
     one_sided_rows,
-    self_rows,
     stress_rows,
     taper_rows,
     tracks,
     wall_rows,
 )
-from springcad.kinds.lever_arm.omega_states import (
-    Guess,
-    States,
-    exact_states,
-    linear_states,
-    rest_guess,
-)
+from springcad.kinds.lever_arm.omega_states import States, linear_states
 from springcad.optimise import dual
 from springcad.optimise.dual import Dual
 from springcad.optimise.sqp import Evaluation
@@ -67,8 +61,7 @@ def linear_problem(case: OmegaCase, variables: Floats, *, slopes: bool = True) -
 
     Without ``slopes`` the gradients are left out, which takes half the time.
     """
-    half = half_of(case, variables)
-    half = half if slopes else half.bare
+    half = half_of(case, variables, slopes=slopes)
     return evaluation(case, half, linear_states(case, half), alike=True)
 
 
@@ -90,12 +83,11 @@ def evaluation(case: OmegaCase, half: Half, states: States, *, alike: bool) -> E
         bend_rows(case, half),
         taper_rows(case, half),
         foot_row(half),
-        halves_rows(case, half, rest, rest),
-        halves_rows(case, half, plus, minus),
+        *halves_rows(case, half, [(rest, rest), (plus, minus)]),
         corridor_rows(case, half, plus, 1.0),
         corridor_rows(case, half, minus, -1.0),
         *(wall_rows(case, half, track) for track in (rest, plus, minus)),
-        *(self_rows(case, half, track) for track in (rest, plus, minus)),
+        *self_rows(case, half, [rest, plus, minus]),
     ]
     if case.topology == "omega":
         rows.append(one_sided_rows(half))
@@ -136,8 +128,7 @@ class ExactProblem:
 
     def __call__(self, variables: Floats, *, slopes: bool = True) -> Evaluation:
         """Values and gradients at ``variables`` (V,); without ``slopes`` values alone."""
-        half = half_of(self.case, variables)
-        half = half if slopes else half.bare
+        half = half_of(self.case, variables, slopes=slopes)
         states = self._states(half)
         if states is not None:
             return evaluation(self.case, half, states, alike=False)

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.lever_arm.omega import OmegaCase, OmegaLeaf, OmegaResponse
+from springcad.kinds.lever_arm.omega_exact import (
+    Guess,
+    energy_of,
+    equilibrium,
+    rest_guess,
+    state_of,
+)
 from springcad.kinds.lever_arm.omega_form import (
     Half,
     angle_spline,
@@ -17,93 +25,102 @@ from springcad.kinds.lever_arm.omega_form import (
     variables_of,
 )
 from springcad.kinds.lever_arm.omega_gaps import corridor_gap, self_gap, wall_gap
-from springcad.kinds.lever_arm.omega_states import (
-    Guess,
-    energy_of,
-    equilibrium,
-    rest_guess,
-    state_of,
-)
 from springcad.mechanics.section import curved_beam_factor
 
 Floats = NDArray[np.float64]
 
 STATIONS = 361
 """Stations at which the half is told."""
+MIRROR = np.array([-1.0, 1.0])
+"""Takes the right half to the left one."""
 LONGEST_STEP = 0.25
 """Largest step of the displacement, over the stroke."""
 
 
 @dataclass(frozen=True)
 class _Side:
-    """The right half at one displacement, SI and per width."""
+    """The right half at one displacement; line and stress in SI, the rest over E, R_c and width."""
 
     line: Floats
     stress: Floats
+    force: Floats
+    turn: float
     energy: float
+
+
+@dataclass(frozen=True)
+class _Swing:
+    """The right half at +u and at -u, and the smallest gaps to the leaf, the wall, the corridor.
+
+    The left half is the right one in the other state, mirrored, so the gaps at -u are the same.
+    """
+
+    sides: tuple[_Side, _Side]
+    gaps: tuple[float, float, float]
 
 
 def response(
     leaf: OmegaLeaf, case: OmegaCase, width: float, displacements: Floats
 ) -> OmegaResponse:
     """See ``omega.omega_response``."""
-    half = half_of(case, variables_of(case, leaf)).bare
+    half = half_of(case, variables_of(case, leaf), slopes=False)
     share = np.linspace(0.0, 1.0, STATIONS)
     stations, thickness = share * leaf.length, thickness_spline(leaf.thickness_coefficients)(share)
     curvature = angle_spline(leaf.angle_coefficients).derivative()(share) / leaf.length
     factor = curved_beam_factor(0.5 * thickness * np.abs(curvature))
     slope = thickness_spline(leaf.thickness_coefficients).derivative()(share) / leaf.length
     edges = 1.0 + 0.25 * slope**2
-    reached = _reached(case, half, np.abs(displacements) / case.stroke)
 
-    rows = []
-    for u, guess in zip(displacements, reached, strict=True):
-        order = (0, 1) if u >= 0.0 else (1, 0)
-        sides = [_side(case, half, guess, k, abs(u), thickness, (factor, edges)) for k in order]
-        right, left = sides[0], _Side(sides[1].line * [-1.0, 1.0], sides[1].stress, sides[1].energy)
-        loads = guess.loads[list(order)]
-        rows.append(
-            (
-                (loads[0, 0] - loads[1, 0]),
-                (loads[0, 1] + loads[1, 1]),
-                _turn(half, guess, order[0]),
-                right.energy + left.energy,
-                right,
-                left,
-                _gaps(leaf, case, u, right.line, left.line, stations, thickness),
-            )
-        )
-    force, side_force, turn, energy, rights, lefts, gaps = zip(*rows, strict=True)
+    def swing(share: float, guess: Guess) -> _Swing:
+        u = share * case.stroke
+        plus, minus = (_side(case, half, guess, k, u, thickness, (factor, edges)) for k in (0, 1))
+        return _Swing((plus, minus), _gaps(leaf, case, u, (plus, minus), stations, thickness))
+
+    shares = np.round(np.abs(displacements) / case.stroke, 12)
+    swings = {share: swing(share, guess) for share, guess in _reached(case, half, shares)}
+    at = [swings[float(share)] for share in shares]
+    rights, lefts = zip(
+        *(
+            swing.sides[:: 1 if u >= 0.0 else -1]
+            for u, swing in zip(displacements, at, strict=True)
+        ),
+        strict=True,
+    )
     scale = width * case.elastic_modulus * case.enclosure_radius
-    smallest = np.array(gaps)
+    forces = np.stack([right.force for right in rights])
+    others = np.stack([left.force * MIRROR for left in lefts])
+    force, side_force = scale * (forces + others).T
+    self_gap, wall_gap, corridor_gap = np.array([swing.gaps for swing in at]).T
+    energy = np.array(
+        [right.energy + left.energy for right, left in zip(rights, lefts, strict=True)]
+    )
     return OmegaResponse(
         displacement=np.asarray(displacements, dtype=np.float64),
-        force=scale * np.array(force),
-        side_force=scale * np.array(side_force),
-        rotation=np.array(turn),
-        energy=scale * case.enclosure_radius * np.array(energy),
+        force=force,
+        side_force=side_force,
+        rotation=np.array([right.turn for right in rights]),
+        energy=scale * case.enclosure_radius * energy,
         stations=stations,
         thickness=thickness,
-        right=np.stack([side.line for side in rights]),
-        left=np.stack([side.line for side in lefts]),
-        right_stress=np.stack([side.stress for side in rights]),
-        left_stress=np.stack([side.stress for side in lefts]),
-        self_gap=smallest[:, 0],
-        wall_gap=smallest[:, 1],
-        corridor_gap=smallest[:, 2],
+        right=np.stack([right.line for right in rights]),
+        left=np.stack([left.line * MIRROR for left in lefts]),
+        right_stress=np.stack([right.stress for right in rights]),
+        left_stress=np.stack([left.stress for left in lefts]),
+        self_gap=self_gap,
+        wall_gap=wall_gap,
+        corridor_gap=corridor_gap,
     )
 
 
-def _reached(case: OmegaCase, half: Half, shares: Floats) -> list[Guess]:
-    """Equilibrium at each share of the stroke, each followed from rest upwards."""
-    found = {0.0: rest_guess(half)}
-    at, guess = 0.0, found[0.0]
-    for share in sorted({round(float(share), 12) for share in shares} - {0.0}):
+def _reached(case: OmegaCase, half: Half, shares: Floats) -> Iterator[tuple[float, Guess]]:
+    """Each share of the stroke once, with its equilibrium, followed from rest upwards."""
+    at, guess = 0.0, rest_guess(half)
+    for share in np.unique(shares).tolist():
         steps = int(np.ceil((share - at) / LONGEST_STEP))
         for step in np.linspace(at, share, steps + 1)[1:]:
             guess = equilibrium(case, half, guess, float(step))
-        at, found[share] = share, guess
-    return [found[round(float(share), 12)] for share in shares]
+        at = share
+        yield share, guess
 
 
 def _side(
@@ -127,34 +144,28 @@ def _side(
     stress = along * (6.0 * np.abs(moment) / thickness**2 * bent + np.abs(tension) / thickness)
     force = guess.loads[k]
     shear = force[0] * np.sin(guess.angles[k]) - force[1] * np.cos(guess.angles[k])
-    return _Side(line, stress, energy_of(case, half, state, shear))
-
-
-def _turn(half: Half, guess: Guess, k: int) -> float:
-    """Rotation of the hub."""
-    start = basis().at_points[0]
-    return float(start @ guess.angles[k] - half.start_angle.value[0])
+    turn = float(basis().at_points[0] @ guess.angles[k] - half.start_angle.value[0])
+    return _Side(line, stress, force[:2], turn, energy_of(case, half, state, shear))
 
 
 def _gaps(
     leaf: OmegaLeaf,
     case: OmegaCase,
     u: float,
-    right: Floats,
-    left: Floats,
+    sides: tuple[_Side, _Side],
     stations: Floats,
     thickness: Floats,
 ) -> tuple[float, float, float]:
     """Smallest gap to the leaf itself, to the wall and to the corridor, of both halves."""
-    mirrored = left * [-1.0, 1.0]
+    plus, minus = (side.line for side in sides)
     return (
         min(
-            self_gap(right, left, thickness, stations, case),
-            self_gap(mirrored, right * [-1.0, 1.0], thickness, stations, case),
+            self_gap(plus, minus * MIRROR, thickness, stations, case),
+            self_gap(minus, plus * MIRROR, thickness, stations, case),
         ),
-        min(wall_gap(half, thickness, stations, case) for half in (right, mirrored)),
+        min(wall_gap(line, thickness, stations, case) for line in (plus, minus)),
         min(
-            corridor_gap(right, thickness, u, leaf.middle, case),
-            corridor_gap(mirrored, thickness, -u, leaf.middle, case),
+            corridor_gap(plus, thickness, u, leaf.middle, case),
+            corridor_gap(minus, thickness, -u, leaf.middle, case),
         ),
     )

@@ -36,8 +36,6 @@ LARGEST_RATIO = 0.45
 """Curvature x half thickness up to which the curved-beam factor is followed while searching."""
 BETWEEN = 1.5e-3
 """Added to the wanted gap, in R_c, for what lies between the points."""
-NOWHERE = 1.0
-"""The margin of a zone where nothing can touch."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +51,11 @@ class Track:
 def zones(points: int, count: int) -> Indices:
     """Points of each of ``count`` zones."""
     return zone_index(points, count)
+
+
+def wanted_gap(case: OmegaCase) -> float:
+    """At the points, so that it is kept between them too; in R_c."""
+    return BETWEEN + case.min_gap / case.enclosure_radius
 
 
 def at_points(part: Dual) -> Dual:
@@ -87,6 +90,8 @@ def bend_factor(ratio: Dual) -> Dual:
     """
     value, slope = _factor()
     inside = np.clip(ratio.value, -LARGEST_RATIO, LARGEST_RATIO)
+    if not ratio.gradient.shape[1]:
+        return Dual(value(inside), ratio.gradient)
     return ratio.through(value(inside), np.where(inside == ratio.value, slope(inside), 0.0))
 
 
@@ -99,7 +104,7 @@ def stress_rows(case: OmegaCase, half: Half, states: list[HalfState]) -> Dual:
     index = zones(STRESS_POINTS, STRESS_ZONES)
     rows: list[Dual] = []
     for state in states:
-        every = _stress_margins(case, half.bare, state.bare, np.arange(STRESS_POINTS))
+        every = _stress_margins(case, half.bare, state.bare, slice(None))
         where = np.concatenate([zone_minimum(margin.value, index) for margin in every])
         count = len(where) // len(every)
         chosen = _stress_margins(case, half, state, where)
@@ -108,7 +113,7 @@ def stress_rows(case: OmegaCase, half: Half, states: list[HalfState]) -> Dual:
 
 
 def _stress_margins(
-    case: OmegaCase, half: Half, state: HalfState, where: Indices
+    case: OmegaCase, half: Half, state: HalfState, where: Indices | slice
 ) -> tuple[Dual, ...]:
     """1 - stress / allowable at some of the stress points, for each edge and sign of the force.
 
@@ -150,7 +155,7 @@ def foot_row(half: Half) -> Dual:
 
 def wall_rows(case: OmegaCase, half: Half, track: Track) -> Dual:
     """Gap to the wall less the wanted one, which closes towards the clamp."""
-    gap = BETWEEN + case.min_gap / case.enclosure_radius
+    gap = wanted_gap(case)
     left = half.length * (CLOSING * (1.0 - basis().points))
     closing = left.value < gap
     wanted = left.through(np.where(closing, left.value, gap), np.where(closing, 1.0, 0.0))
@@ -165,7 +170,7 @@ def corridor_rows(case: OmegaCase, half: Half, track: Track, side: float) -> Dua
     farthest to the right; beside the round end the distance is that to the circle.
     """
     unit = case.enclosure_radius
-    gap, width = BETWEEN + case.min_gap / unit, case.corridor / unit
+    gap, width = wanted_gap(case), case.corridor / unit
     arm = (case.arms[1] if side > 0.0 else case.arms[0]) / unit
     depth = half.middle - track.y
     reach = side * case.stroke / unit * (1.0 - depth * (1.0 / arm))
@@ -183,108 +188,3 @@ def corridor_rows(case: OmegaCase, half: Half, track: Track, side: float) -> Dua
 def _where(holds: NDArray[np.bool_], part: Dual) -> Dual:
     """The part where it holds, else 0."""
     return part.through(np.where(holds, part.value, 0.0), np.where(holds, 1.0, 0.0))
-
-
-def self_rows(case: OmegaCase, half: Half, track: Track) -> Dual:
-    """Gap of the half to itself less the wanted one.
-
-    Two points count from the shortest arc between them that a bend can turn round a gap of the
-    wanted width: half a circle about it through both centre lines.
-    """
-    gap = BETWEEN + case.min_gap / case.enclosure_radius
-    stations = float(half.length.value[0]) * basis().points
-    thick = track.half.value
-    between = np.abs(stations[:, None] - stations)
-    counts = between > 0.5 * np.pi * (thick[:, None] + thick + gap)
-    return _pair_rows(track, track, counts) - gap
-
-
-def halves_rows(case: OmegaCase, half: Half, right: Track, mirrored: Track) -> Dual:
-    """Gap of the right half to the left one, which is the mirror image of ``mirrored``.
-
-    Next to the hub the halves meet; from a thickness and a gap along they count.
-    """
-    unit = case.enclosure_radius
-    gap, hub = BETWEEN + case.min_gap / unit, case.hub_radius / unit
-    stations = hub + float(half.length.value[0]) * basis().points
-    near = case.min_gap / unit + 2.0 * track_start(right)
-    counts = stations[:, None] + stations > 2.0 * near
-    left = Track(-mirrored.x, mirrored.y, mirrored.half)
-    return _pair_rows(right, left, counts) - gap
-
-
-def track_start(track: Track) -> float:
-    """Half thickness at the hub."""
-    return float(track.half.value[0])
-
-
-def _pair_rows(first: Track, second: Track, counts: NDArray[np.bool_]) -> Dual:
-    """Distance of the tubes, smallest of each zone of ``first``, among the pairs that count.
-
-    From each point the distance is taken to the chords on both sides of the nearest point of the
-    other line, so the points may lie much farther apart than the gap is wide.
-    """
-    # In place: this is what a search spends most of its time on.
-    distance = first.x.value[:, None] - second.x.value
-    distance *= distance
-    across = first.y.value[:, None] - second.y.value
-    across *= across
-    distance += across
-    np.sqrt(distance, out=distance)
-    distance -= second.half.value
-    distance[~counts] = np.inf
-    foot = _foot(first, second, distance.argmin(axis=1), counts)
-    gap = foot.span - first.half.value - foot.mix(second.half.value)
-    alone = ~np.any(counts, axis=1)
-    gap = np.where(alone, NOWHERE, gap)
-    i = zone_minimum(gap, zones(POINTS, ZONES))
-    near = _Foot(*(part[i] for part in vars(foot).values()))
-    gradient = (
-        near.ux[:, None] * (first.x.gradient[i] - near.mix(second.x.gradient))
-        + near.uy[:, None] * (first.y.gradient[i] - near.mix(second.y.gradient))
-        - first.half.gradient[i]
-        - near.mix(second.half.gradient)
-    )
-    return Dual(gap[i], np.where(alone[i, None], 0.0, gradient))
-
-
-@dataclass(frozen=True)
-class _Foot:
-    """Nearest place of a line to each point: between its points ``start`` and ``end``.
-
-    ``share`` is the share of the way from one to the other, (ux, uy) the unit vector from the
-    foot to the point and ``span`` their distance.
-    """
-
-    start: Indices
-    end: Indices
-    share: Floats
-    ux: Floats
-    uy: Floats
-    span: Floats
-
-    def mix(self, values: Floats) -> Floats:
-        """Values (P,) or gradients (P, V) of the line at the feet."""
-        share = self.share if values.ndim == 1 else self.share[:, None]
-        return np.asarray(values[self.start] + share * (values[self.end] - values[self.start]))
-
-
-def _foot(first: Track, second: Track, j: Indices, counts: NDArray[np.bool_]) -> _Foot:
-    """The nearer foot on the chords behind and before the points ``j`` of the second line.
-
-    Chords that lead to a point that does not count are left out.
-    """
-    x, y, every = second.x.value, second.y.value, np.arange(POINTS)
-    options = []
-    for other in (np.maximum(j - 1, 0), np.minimum(j + 1, POINTS - 1)):
-        tx, ty = x[other] - x[j], y[other] - y[j]
-        dx, dy = first.x.value - x[j], first.y.value - y[j]
-        square = np.maximum(tx * tx + ty * ty, 1e-24)
-        share = np.clip((dx * tx + dy * ty) / square, 0.0, 1.0) * counts[every, other]
-        dx, dy = dx - share * tx, dy - share * ty
-        span = np.maximum(np.hypot(dx, dy), 1e-12)
-        options.append(_Foot(j, other, share, dx / span, dy / span, span))
-    behind, ahead = options
-    choice = behind.span <= ahead.span
-    pairs = zip(vars(behind).values(), vars(ahead).values(), strict=True)
-    return _Foot(*(np.where(choice, one, two) for one, two in pairs))

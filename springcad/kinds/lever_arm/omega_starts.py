@@ -102,7 +102,7 @@ def stressed(case: OmegaCase, variables: Floats) -> Floats:
     found = variables.copy()
     found[THICKNESS_RANGE] = lower[THICKNESS_RANGE]
     for _ in range(3):
-        half = half_of(case, found).bare
+        half = half_of(case, found, slopes=False)
         states = linear_states(case, half)
         rows = stress_rows(case, half, [states.plus])
         peak = 1.0 - float(np.min(rows.value))

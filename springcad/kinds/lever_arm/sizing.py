@@ -15,14 +15,10 @@ import numpy as np
 
 from springcad.errors import InfeasibleError
 from springcad.kinds.knobs import remedies
-from springcad.kinds.lever_arm.feasibility import (
-    KNOBS,
-    Case,
-    case_remedies,
-    failures,
-    full_thickness,
-    sheet_for,
-)
+from springcad.kinds.lever_arm.case import Case
+from springcad.kinds.lever_arm.changes import KNOBS
+from springcad.kinds.lever_arm.estimate import full_thickness, sheet_for
+from springcad.kinds.lever_arm.feasibility import case_remedies, failures
 from springcad.kinds.lever_arm.stack import higher_envelope, layer_count
 from springcad.kinds.lever_arm.straight import Fittings, StraightLeaf, StraightShape
 from springcad.kinds.lever_arm.straight_beam import Elastic, LeafStates, leaf_states

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.lever_arm.feasibility import Case
+from springcad.kinds.lever_arm.case import Case
 
 _ROUND_OFF = 1e-6
 """Share of a layer that is not worth another one."""
@@ -35,6 +36,32 @@ def layer_count(case: Case, layer: float) -> int:
             case.height, "m", tuple(change),
         )  # fmt: skip
     return layers
+
+
+def too_stiff(case: Case, layers: int, least: float) -> InfeasibleError:
+    """For a stack that has ``least`` stiffness [N/m] where it is as thin as can be cut.
+
+    Stiffness is proportional to the stack's width, so the changes hold exactly.
+    """
+    share = case.stiffness / least
+    changes = [f"raise target.spring_stiffness from {1e-3 * case.stiffness:.4g} to "
+               f"{_rounded(1e-3 * least, math.ceil):g} N/mm"]  # fmt: skip
+    fewer = math.floor(share * layers)
+    if case.layers and fewer:
+        changes.append(f"lower leaf.layers from {layers} to {fewer}")
+    elif layers == 1:
+        changes.append(f"lower leaf.sheet_thickness from {1e3 * case.sheet:.4g} to "
+                       f"{_rounded(1e3 * share * case.sheet, math.floor):g} mm")  # fmt: skip
+    return InfeasibleError(
+        f"stiffness of {case.count} x {layers} layers, as thin as can be cut", least,
+        case.stiffness, "N/m", tuple(changes),
+    )  # fmt: skip
+
+
+def _rounded(value: float, way: Callable[[float], int]) -> float:
+    """To three digits."""
+    digits = 2 - math.floor(math.log10(value))
+    return way(value * 10.0**digits) / 10.0**digits
 
 
 def _higher(case: Case, layers: int) -> list[str]:

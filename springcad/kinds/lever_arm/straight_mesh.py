@@ -29,7 +29,8 @@ from springcad.mechanics.fem.blocks import (
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints
 from springcad.mechanics.fem.element import gauss_points, shape_functions
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load, Model, State, prepare_model, solve_path
+from springcad.mechanics.fem.model import Load, Model, State, prepare_model
+from springcad.mechanics.fem.newton import solve_path
 from springcad.mechanics.fem.recovery import edge_stress
 
 Floats = NDArray[np.float64]
@@ -59,11 +60,13 @@ class LeafModel:
         leaf: one leaf.
         model: its elements.
         pin: number of the node that the lever moves.
+        shares: width of the elements over that at the clamp (E,), of a triangle; else None.
     """
 
     leaf: StraightLeaf
     model: Model
     pin: int
+    shares: Floats | None
 
 
 @dataclass(frozen=True)
@@ -123,15 +126,17 @@ def leaf_model(leaf: StraightLeaf, material: Elastic) -> LeafModel:
     mesh = leaf_mesh(leaf)
     sheet = Sheet(material.elastic_modulus, material.poisson_ratio, leaf.width)
     solid = prepare_solid(mesh, sheet)
+    shares = None
     if not leaf.bends_in_sheet:
-        solid = _as_wide_as(solid, leaf)
+        plain, solid = solid, _as_wide_as(solid, leaf)
+        shares = solid.weights.sum(axis=1) / plain.weights.sum(axis=1)
     pin = mesh.node_sets["pin"][ACROSS]
     held = solve_constraints(
         mesh.unknowns,
         prescribe(mesh.node_sets["clamp"]),
         prescribe(pin, components=(1,)),
     )
-    return LeafModel(leaf, prepare_model(solid, held), int(pin))
+    return LeafModel(leaf, prepare_model(solid, held), int(pin), shares)
 
 
 def _as_wide_as(solid: Solid, leaf: StraightLeaf) -> Solid:

@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 from springcad.geometry.outline import Profile
 from springcad.geometry.outline_ops import profile_area
 from springcad.geometry.transform import rotate
-from springcad.kinds.lever_arm.feasibility import Case
+from springcad.kinds.lever_arm.case import Case
+from springcad.kinds.lever_arm.changes import FAULT, LARGEST_STRAIN, less_strain
+from springcad.kinds.lever_arm.feasibility import failures
 from springcad.kinds.lever_arm.made import MadeSpring
 from springcad.kinds.lever_arm.sizing import SizedLeaf, elastic, size_leaf
 from springcad.kinds.lever_arm.spring_law import spring_law
@@ -155,17 +157,19 @@ def _checks(case: Case, sized: SizedLeaf, states: LeafStates) -> Iterator[Check]
         "stress at the spring deflection, both directions", float(states.peak_stress[-1]), "<=",
         (1.0 + STRESS_TOLERANCE) * case.design_stress, "Pa",
         source="nonlinear beam, bending and axial, no notch; the leaf is symmetric",
-        remedy="lower target.spring_deflection or make the leaf longer",
+        remedy=FAULT,
     )  # fmt: skip
     if sized.leaf.bends_in_sheet:
         yield check(
             "thickness at the clamp", sized.leaf.thickness, ">=", case.min_web, "m",
-            source="smallest web of the process", remedy="make the leaf longer",
+            source="smallest web of the process", remedy=FAULT,
         )  # fmt: skip
     yield check(
-        "strain at the edge", case.design_stress / case.elastic_modulus, "<=", 0.01, "1",
+        "strain at the edge", case.design_stress / case.elastic_modulus, "<=",
+        LARGEST_STRAIN, "1",
         source="linear elasticity of small strains; beyond it the material's curve counts",
-        remedy="a lower material.design_stress", otherwise="warn",
+        remedy=less_strain(case, LARGEST_STRAIN, lambda tried: not failures(tried)),
+        otherwise="warn",
     )  # fmt: skip
 
 

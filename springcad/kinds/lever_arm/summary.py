@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.lasting import Loading
+from springcad.kinds.lever_arm.case import pivots
 from springcad.kinds.lever_arm.checks import PIVOTS, joint_checks, largest_pivot_force
-from springcad.kinds.lever_arm.feasibility import pivots
 from springcad.kinds.lever_arm.made import MadeJoint
 from springcad.kinds.lever_arm.mechanism import (
     Response,
@@ -102,7 +102,7 @@ def _response(made: MadeJoint) -> dict[str, Value]:
         "spring_stiffness_at_rest_N_per_m": float(spring.law.stiffness(np.array(0.0))),
         "energy_J": float(spring.energy[-1]),
         "peak_nominal_stress_Pa": float(np.max(spring.stress)),
-        "peak_pivot_force_N": largest_pivot_force(made),
+        "peak_pivot_force_N": largest_pivot_force(made.case, made.spring.law),
         "stiffness_range_Nm_per_rad": [float(rest.stiffness.min()), float(rest.stiffness.max())],
         "max_deflection_rad": float(np.max(end.angle)),
         "max_torque_Nm": float(np.max(end.torque)),
@@ -169,7 +169,8 @@ def _outcomes(made: MadeJoint) -> Iterator[Outcome]:
                       "N*m/rad", None, at)  # fmt: skip
         yield Outcome(f"end of the stroke, {where}", float(end.angle[index]), "rad", None, at)
         yield Outcome(f"torque there, {where}", float(end.torque[index]), "N*m", None, at)
-    yield Outcome("largest force on the pivot", largest_pivot_force(made), "N",
+    force = largest_pivot_force(case, spring.law)
+    yield Outcome("largest force on the pivot", force, "N",
                   case.max_pivot_force or None, "over all pivot positions")  # fmt: skip
     yield from spring.outcomes
     yield Outcome("mass of all leaves", spring.mass, "kg", None, "with eyes and blocks")
@@ -234,7 +235,7 @@ def _assumptions(made: MadeJoint) -> Iterator[str]:
 
 def _advice(made: MadeJoint) -> Iterator[str]:
     case = made.case
-    force = largest_pivot_force(made)
+    force = largest_pivot_force(made.case, made.spring.law)
     spring = float(made.spring.force[-1])
     yield (
         f"The pivot carries up to {force:.4g} N, {force / spring:.3g} times the spring's force: "

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from springcad.geometry.polyline import BulgePolyline, signed_area
 from springcad.kinds.lever_arm.straight import Fittings, StraightLeaf, StraightShape
 from springcad.kinds.lever_arm.straight_beam import Elastic
 from springcad.written import IncompleteDesignError, WrittenDesign
@@ -46,11 +45,3 @@ def written_leaf(written: WrittenDesign) -> StraightLeaf:
             hole_diameter=number("hole_diameter_m"),
         ),
     )
-
-
-def written_outline(written: WrittenDesign) -> BulgePolyline:
-    """The outer contour of the drawing; IncompleteDesignError where there is none."""
-    contours = written.contours.get("", ())
-    if not contours:
-        raise IncompleteDesignError("the drawing of the leaf lacks its contour")
-    return max(contours, key=lambda line: abs(signed_area(line)))

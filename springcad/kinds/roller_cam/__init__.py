@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from springcad.result import Check, Judgement, Progress, Result
+    from springcad.sheet import Sheet
     from springcad.spec.source import Spec
     from springcad.spec.torque_curve import TorqueFile
     from springcad.written import WrittenDesign
@@ -23,6 +24,7 @@ __all__ = [
     "check_spec",
     "compensate_design",
     "design_spec",
+    "explain_spec",
     "judge_decks",
     "judge_design",
     "next_spec",
@@ -42,6 +44,13 @@ def design_spec(spec: Spec, progress: Progress) -> Result:
     from springcad.kinds.roller_cam.design import design_joint
 
     return design_joint(spec, progress)
+
+
+def explain_spec(spec: Spec, progress: Progress) -> Sheet:
+    """The calculation sheet of element and joint."""
+    from springcad.kinds.roller_cam.sheet import explain_joint
+
+    return explain_joint(spec, progress)
 
 
 def judge_design(design: WrittenDesign, progress: Progress) -> Judgement:

@@ -20,14 +20,8 @@ from springcad.kinds.roller_cam.element import ElementGeometry
 from springcad.kinds.roller_cam.element_mesh import FINE, Density
 from springcad.kinds.roller_cam.joint import Roller
 from springcad.mechanics.fem.contact import prepare_contact
-from springcad.mechanics.fem.newton import (
-    Load,
-    Model,
-    NoEquilibriumError,
-    State,
-    prepare_model,
-    solve_path,
-)
+from springcad.mechanics.fem.model import Load, Model, State, prepare_model
+from springcad.mechanics.fem.newton import NoEquilibriumError, solve_path
 from springcad.mechanics.fem.recovery import edge_stress
 from springcad.mechanics.fem.rigid_profile import RigidProfile, rigid_profile
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from springcad.geometry.polyline import BulgePolyline, signed_area
+from springcad.geometry.polyline import BulgePolyline
+from springcad.kinds.judging import drawn_outline
 from springcad.kinds.roller_cam.element import ElementDimensions, ElementGeometry, Mount, Mounting
 from springcad.kinds.roller_cam.joint import Cantilever, Roller
 from springcad.written import IncompleteDesignError, WrittenDesign
@@ -35,9 +36,7 @@ class WrittenJoint:
 def written_joint(written: WrittenDesign) -> WrittenJoint:
     """Raises IncompleteDesignError where a number or a contour is missing."""
     number = written.number
-    contours = written.contours.get("", ())
-    if not contours:
-        raise IncompleteDesignError("the drawing of the element lacks its contour")
+    outline = drawn_outline(written, "element")
     return WrittenJoint(
         geometry=_geometry(written),
         roller=Roller(
@@ -47,7 +46,7 @@ def written_joint(written: WrittenDesign) -> WrittenJoint:
         ),
         dead_zone=number("design.dead_zone_rad"),
         deflection=float(np.max(written.array("response.angle_rad"))),
-        outline=max(contours, key=lambda line: abs(signed_area(line))),
+        outline=outline,
     )
 
 

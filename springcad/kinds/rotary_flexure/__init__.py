@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from springcad.kinds.calibrating import Calibration, Stiffness
     from springcad.result import Check, Judgement, Progress, Result
+    from springcad.sheet import Sheet
     from springcad.spec.source import Spec
     from springcad.spec.torque_curve import TorqueFile
     from springcad.written import WrittenDesign
@@ -24,6 +25,7 @@ __all__ = [
     "calibrate_design",
     "check_spec",
     "design_spec",
+    "explain_spec",
     "judge_decks",
     "judge_design",
 ]
@@ -44,6 +46,13 @@ def design_spec(spec: Spec, progress: Progress) -> Result:
     from springcad.kinds.rotary_flexure.design import design_spring
 
     return design_spring(spec, progress)
+
+
+def explain_spec(spec: Spec, progress: Progress) -> Sheet:
+    """The calculation sheet of ring and camshaft."""
+    from springcad.kinds.rotary_flexure.sheet import explain_spring
+
+    return explain_spring(spec, progress)
 
 
 def judge_design(design: WrittenDesign, progress: Progress) -> Judgement:

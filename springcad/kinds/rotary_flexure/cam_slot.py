@@ -128,6 +128,19 @@ def tooth_space(
     )
 
 
+def flank_points(slot: Slot, direction: int) -> Floats:
+    """Dense points (M, 2) of one side from its top, as solved; its arc goes on by half.
+
+    That a little more than the drawn flank is there helps a search for the contact near rest.
+    """
+    chain = slot.pieces if direction > 0 else backwards(slot.pieces)
+    curve = next(piece for piece in chain if isinstance(piece, Curve))
+    arc = next(piece for piece in chain if isinstance(piece, Arc))
+    angle = arc.start_angle + arc.sweep * np.linspace(0.0, 1.5, 31)[1:]
+    beyond = np.array(arc.center) + arc.radius * np.column_stack([np.cos(angle), np.sin(angle)])
+    return np.concatenate([curve.points, beyond])
+
+
 def _side(flank: Flank, rest: Rest, smallest_radius: float, turn: float) -> _Side:
     """The exact flank down to the smallest radius, then an arc until parallel to the tip."""
     middle = float(flank.angle[len(flank.angle) // 2])

@@ -21,7 +21,8 @@ from springcad.mechanics.fem.assembly import Sheet, prepare_solid
 from springcad.mechanics.fem.blocks import graded, join, straight, transfinite
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints, tie
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load, linear_solution, prepare_model
+from springcad.mechanics.fem.model import Load, prepare_model
+from springcad.mechanics.fem.newton import linear_solution
 
 Floats = NDArray[np.float64]
 

@@ -253,14 +253,26 @@ def seated(
     tips: with a coefficient μ it is −μ sign(sliding) while the angle grows (see ``Flank``) and
     +μ sign(sliding) while it falls.
     """
-    play = camshaft.slot.free_play
+    points = drawn_flank(camshaft.drawn, side.direction).points
+    return seated_on(beam, inputs, points, camshaft.slot.free_play, side, friction)
+
+
+def seated_on(
+    beam: PreparedBeam,
+    inputs: CamshaftInputs,
+    points: Floats,
+    free_play: float,
+    side: Flank,
+    friction: float = 0.0,
+) -> Seat:
+    """``seated`` on the dense points (M, 2) of a flank, with its free play (rad)."""
     found = seat(
         flexure_part(beam, inputs.root_radius, side.direction, friction),
-        drawn_flank(camshaft.drawn, side.direction).points,
-        side.angle + play,
+        points,
+        side.angle + free_play,
         count=inputs.count,
         force=side.force,
         station=side.station,
         station_limits=_pad(beam, inputs),
     )
-    return replace(found, angle=found.angle - play)
+    return replace(found, angle=found.angle - free_play)

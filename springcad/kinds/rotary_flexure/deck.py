@@ -21,7 +21,7 @@ from springcad.kinds.rotary_flexure.sector_contact import (
 from springcad.kinds.rotary_flexure.written_spring import written_spring
 from springcad.mechanics.fem.deck import SLICE, slice_deck
 from springcad.mechanics.fem.deck_contact import rigid_strip
-from springcad.mechanics.fem.newton import Load
+from springcad.mechanics.fem.model import Load
 from springcad.mechanics.fem.recovery import edge_stress
 from springcad.written import WrittenDesign
 

@@ -8,7 +8,12 @@ from springcad.geometry.outline_ops import profile_area, profile_faults
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
 from springcad.kinds.rotary_flexure.checks import spring_checks
-from springcad.kinds.rotary_flexure.feasibility import Case, failures, require_feasible
+from springcad.kinds.rotary_flexure.feasibility import (
+    Case,
+    failures,
+    require_feasible,
+    resolved_style,
+)
 from springcad.kinds.rotary_flexure.full_load import DIRECTIONS
 from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
 from springcad.kinds.rotary_flexure.law import design_law
@@ -23,7 +28,8 @@ from springcad.kinds.rotary_flexure.summary import summarise
 from springcad.kinds.rotary_flexure.trials import (
     BEND_LIMIT,
     DEFLECTION,
-    TIP_THICKNESS,
+    THICKER_TIP,
+    THINNER_TIP,
     changes_that_work,
 )
 from springcad.kinds.target_law import Law
@@ -56,17 +62,20 @@ def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
         return _spring(spec, case, feasibility, progress)
     except InfeasibleError as error:
         progress("no part can be made: trying what would help")
-        tried = changes_that_work(spec, (BEND_LIMIT, DEFLECTION, TIP_THICKNESS), _passes)
-        raise error.with_remedies(*tried) from error
+        bends = resolved_style(design_law(case.inputs), case.style) == "serpentine"
+        knobs = (*([BEND_LIMIT] if bends else []), DEFLECTION, THICKER_TIP, THINNER_TIP)
+        raise error.with_remedies(*changes_that_work(spec, knobs, _is_possible, _passes)) from error
+
+
+def _is_possible(spec: RotaryFlexureSpec) -> bool:
+    """Whether every closed form holds."""
+    return not failures(case_of(spec).shifted)
 
 
 def _passes(spec: RotaryFlexureSpec) -> bool:
     """Whether the spec can be designed and every check of the spring holds."""
-    case = case_of(spec).shifted
-    if failures(case):
-        return False
     try:
-        spring = _spring(spec, case, (), lambda _: None)
+        spring = _spring(spec, case_of(spec).shifted, (), lambda _: None)
     except InfeasibleError:
         return False
     return all(claim.status != "fail" for claim in spring_checks(spring))

@@ -49,10 +49,18 @@ def demand_of(target: Law, root_radius: float, contact_radius: float, count: int
 
 def stiffness_at_rest(ribbon: Ribbon, beam: PreparedBeam, demand: Demand) -> float:
     """Stiffness of one flexure with contact at the contact radius, N m/rad."""
-    # So small that the beam is linear; the arm of a tangential force is the contact radius.
+    # So small that the beam is linear.
     probe = 1e-6 * float(demand.law.torque[-1]) / demand.contact_radius
-    energy = float(contact_load(beam, ribbon.length, probe, 1.0).energy[0])
-    return (probe * demand.contact_radius) ** 2 / (2.0 * energy)
+    return stiffness_of_contact(beam, ribbon.length, demand.contact_radius, probe)
+
+
+def stiffness_of_contact(beam: PreparedBeam, station: float, radius: float, probe: float) -> float:
+    """Stiffness (F r)^2/(2 U) of one flexure under the small tip force ``probe`` (N), N m/rad.
+
+    The arm of the tangential force at ``station`` is the ``radius`` at which it acts.
+    """
+    energy = float(contact_load(beam, station, probe, 1.0).energy[0])
+    return (probe * radius) ** 2 / (2.0 * energy)
 
 
 def loads_of(

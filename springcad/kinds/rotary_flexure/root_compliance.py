@@ -29,7 +29,8 @@ from springcad.mechanics.fem.constraints import (
 )
 from springcad.mechanics.fem.element import edge_shape_functions
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load, linear_solution, prepare_model
+from springcad.mechanics.fem.model import Load, prepare_model
+from springcad.mechanics.fem.newton import linear_solution
 
 Floats = NDArray[np.float64]
 

@@ -27,14 +27,8 @@ from springcad.mechanics.fem.assembly import prepare_solid
 from springcad.mechanics.fem.contact import prepare_contact
 from springcad.mechanics.fem.element import edge_shape_functions
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import (
-    Load,
-    Model,
-    NoEquilibriumError,
-    State,
-    prepare_model,
-    solve_path,
-)
+from springcad.mechanics.fem.model import Load, Model, State, prepare_model
+from springcad.mechanics.fem.newton import NoEquilibriumError, solve_path
 from springcad.mechanics.fem.pad import pad_pressure
 from springcad.mechanics.fem.recovery import edge_stress
 from springcad.mechanics.fem.rigid_profile import RigidProfile

@@ -19,6 +19,7 @@ from springcad.kinds.rotary_flexure.calibration_spec import (
     same_material,
 )
 from springcad.kinds.rotary_flexure.stack_spec import STACK_RULES, StackSection
+from springcad.kinds.rotary_flexure.tolerance_spec import TOLERANCE_RULES, Tolerance
 from springcad.spec.common import (
     AutoLength,
     CommonSpec,
@@ -250,6 +251,7 @@ class RotaryFlexureSpec(CommonSpec):
         same_material,
         one_friction,
         *STACK_RULES,
+        *TOLERANCE_RULES,
     )
 
     kind: Literal["rotary-flexure"]
@@ -279,6 +281,8 @@ class RotaryFlexureSpec(CommonSpec):
     """Sheets in parallel and springs in series, as one joint."""
     calibration: CalibrationEntry = None
     """What a bench test of an earlier design has told: a file of springcad calibrate."""
+    tolerance: Tolerance | None = None
+    """What the shop holds: the share of parts that come out as wanted is then reported."""
 
 
 SPEC_MODEL = RotaryFlexureSpec

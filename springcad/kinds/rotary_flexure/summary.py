@@ -21,6 +21,7 @@ from springcad.kinds.rotary_flexure.numbers import design_numbers, peak, respons
 from springcad.kinds.rotary_flexure.plots import plots
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.kinds.rotary_flexure.stack import named
+from springcad.kinds.rotary_flexure.tolerance_report import with_tolerance
 from springcad.kinds.rotary_flexure.words import advice, assumptions
 from springcad.kinds.strength import with_strength
 from springcad.result import Outcome, Result, Value
@@ -44,7 +45,8 @@ def summarise(spec: Spec, spring: Spring) -> Result:
         advice=tuple(advice(spring)),
         provenance=_provenance(spec, spring),
     )
-    return with_strength(result, spring.spec.material, spring.spec.process, _loading(spring))
+    told = with_strength(result, spring.spec.material, spring.spec.process, _loading(spring))
+    return with_tolerance(told, spring)
 
 
 def _loading(spring: Spring) -> Loading:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from springcad.mechanics.fem.assembly import deformation, stiffness_blocks, stress
 from springcad.mechanics.fem.band import gather, solve
-from springcad.mechanics.fem.newton import Model
+from springcad.mechanics.fem.model import Model
 
 Floats = NDArray[np.float64]
 

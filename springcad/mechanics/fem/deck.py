@@ -27,7 +27,7 @@ from springcad.mechanics.fem.deck_contact import (
     strip_motion,
 )
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import Load
+from springcad.mechanics.fem.model import Load
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -46,6 +46,7 @@ def slice_deck(
     loads: Sequence[Load],
     *,
     strip: RigidStrip | None = None,
+    shares: Floats | None = None,
     nonlinear: bool = True,
     title: str = "springcad",
     notes: Sequence[str] = (),
@@ -57,6 +58,7 @@ def slice_deck(
 
     Args:
         strip: the rigid profile as elements that follow the rotation of the loads.
+        shares: thickness of each element over the sheet's (E,), where it differs.
         nonlinear: large displacements; a linear deck takes one load and no strip.
         title: heading.
         notes: comments, below the heading.
@@ -80,8 +82,7 @@ def slice_deck(
         "*MATERIAL, NAME=SHEET",
         "*ELASTIC",
         f"{sheet.elastic_modulus:.12g}, {sheet.poisson_ratio:.12g}",
-        "*SOLID SECTION, ELSET=SHEET, MATERIAL=SHEET",
-        f"{SLICE:.12g}",
+        *(_section("SHEET", 1.0) if shares is None else _section_lines(shares)),
         *_equation_lines(constraints),
     ]
     for load in loads:
@@ -103,6 +104,22 @@ def slice_deck(
         ]
         lines += step * 2 if strip else step
     return "\n".join(lines) + "\n"
+
+
+def _section(elements: str, share: float) -> list[str]:
+    return [f"*SOLID SECTION, ELSET={elements}, MATERIAL=SHEET", f"{SLICE * share:.12g}"]
+
+
+def _section_lines(shares: Floats) -> list[str]:
+    """A section, with its set of elements, for each thickness (six digits)."""
+    lines: list[str] = []
+    rounded = np.array([float(f"{share:.6g}") for share in shares])
+    for number, share in enumerate(np.unique(rounded), start=1):
+        members = [str(element + 1) for element in np.flatnonzero(rounded == share)]
+        name = f"SHEET-{number}"
+        lines += [f"*ELSET, ELSET={name}", *_wrapped(members, _NUMBERS_PER_LINE)]
+        lines += _section(name, float(share))
+    return lines
 
 
 def _equation_lines(constraints: Constraints) -> list[str]:

@@ -26,7 +26,7 @@ from springcad.mechanics.fem.compliance import compliance
 from springcad.mechanics.fem.constraints import prescribe, solve_constraints
 from springcad.mechanics.fem.element import edge_shape_functions
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.newton import prepare_model
+from springcad.mechanics.fem.model import prepare_model
 from springcad.mechanics.fem.rigid_profile import Projection, RigidProfile, project
 
 Floats = NDArray[np.float64]

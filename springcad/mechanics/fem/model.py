@@ -1,0 +1,115 @@
+"""A solid, how it is held and what it touches, ready to be solved; what acts on it, and states."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springcad.mechanics.fem.assembly import Solid
+from springcad.mechanics.fem.band import Pattern, Scatter, number_unknowns, scatter
+from springcad.mechanics.fem.constraints import Constraints
+from springcad.mechanics.fem.contact import Contact, ContactState
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class Load:
+    """What acts at one point of the path.
+
+    Attributes:
+        force: dead nodal forces (2 N,) [N].
+        prescribed: constants of the constraint equations, at their slaves (2 N,) [m].
+        rotation: angle of the rigid profile [rad], counter-clockwise.
+    """
+
+    force: Floats
+    prescribed: Floats
+    rotation: float = 0.0
+
+
+@dataclass(frozen=True)
+class State:
+    """Equilibrium under one load.
+
+    Attributes:
+        displacement: of the nodes (2 N,) [m].
+        reaction: forces of supports and ties on the nodes (2 N,) [N].
+        energy: strain energy [J].
+        contact: contact forces, pressure and gap; None without contact.
+        iterations: Newton iterations spent on this load, on its last part if it was cut.
+    """
+
+    load: Load
+    displacement: Floats
+    reaction: Floats
+    energy: float
+    contact: ContactState | None
+    iterations: int
+
+
+@dataclass(frozen=True)
+class Model:
+    """A solid, how it is held, what it touches, and its band; made by ``prepare_model``."""
+
+    solid: Solid
+    constraints: Constraints
+    contact: Contact | None
+    pattern: Pattern
+    element_scatter: Scatter
+    contact_scatter: Scatter | None
+
+
+def prepare_model(solid: Solid, constraints: Constraints, contact: Contact | None = None) -> Model:
+    """Number the unknowns and find where element and contact matrices go."""
+    elements = solid.mesh.elements
+    pattern = number_unknowns(constraints.transform, elements)
+    contact_scatter = None
+    if contact is not None:
+        numbers = edge_components(contact)
+        rows, columns = np.repeat(numbers, 6, axis=1).ravel(), np.tile(numbers, (1, 6)).ravel()
+        contact_scatter = scatter(pattern, rows, columns, np.arange(rows.size))
+    return Model(
+        solid,
+        constraints,
+        contact,
+        pattern,
+        scatter(pattern, *_block_entries(elements)),
+        contact_scatter,
+    )
+
+
+def _block_entries(elements: Indices) -> tuple[Indices, ...]:
+    """Rows, columns and source entries of the blocks (xx, xy, yy), and of xy transposed."""
+    row = np.broadcast_to(2 * elements[:, :, None], (len(elements), 8, 8)).ravel()
+    column = np.broadcast_to(2 * elements[:, None, :], (len(elements), 8, 8)).ravel()
+    entry = np.arange(row.size)
+    xx, xy, yy = entry, entry + row.size, entry + 2 * row.size
+    rows = np.concatenate([row, row, row + 1, column + 1])
+    columns = np.concatenate([column, column + 1, column + 1, row])
+    return rows, columns, np.concatenate([xx, xy, yy, xy])
+
+
+def no_load(model: Model) -> Load:
+    """No forces, the constants of the constraints as they were given, the profile at 0."""
+    unknowns = model.solid.mesh.unknowns
+    return Load(np.zeros(unknowns), model.constraints.constants)
+
+
+def edge_components(contact: Contact) -> Indices:
+    """Displacement components of the nodes of the contact edges (K, 6)."""
+    return (2 * contact.edges[..., None] + np.arange(2)).reshape(-1, 6)
+
+
+def at_edge_nodes(contact: Contact, nodal: Floats, unknowns: int) -> Floats:
+    """Forces on the edge nodes (K, 3, 2) added up to (2 N,)."""
+    total = np.bincount(edge_components(contact).ravel(), nodal.ravel(), minlength=unknowns)
+    return np.asarray(total, dtype=np.float64)
+
+
+def free_part(model: Model, force: Floats) -> Floats:
+    """Nodal forces (2 N,) as they act on the free unknowns."""
+    return np.asarray(model.constraints.transform.T @ force)
