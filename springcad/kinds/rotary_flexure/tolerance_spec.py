@@ -59,7 +59,8 @@ def sheet_within(bound: float, thickness: float | None, stack: StackSection) -> 
     """Rule: a sheet is left."""
     key, sheet = "stack.sheet", stack.sheet
     if sheet is None and isinstance(stack.parallel, int) and thickness is not None:
-        key, sheet = "envelope.thickness", thickness / stack.parallel
+        sheet = thickness / stack.parallel
+        key = "envelope.thickness" if stack.parallel == 1 else "a sheet's thickness"
     if sheet is None or bound <= 0.2 * sheet:
         return None
     return f"must be at most a fifth of {key}, {show(0.2 * sheet, LENGTH)}"
