@@ -91,7 +91,8 @@ class Part:
     """A part to be cut. The file is ``NAME.dxf`` for an empty ``suffix``, else ``NAME-suffix.dxf``.
 
     ``role`` says what it is in plain words (``flexure ring``, ``camshaft``); the arcs of its
-    drawing follow curves of the profile within ``tolerance``; ``dimensions`` are drawn on it.
+    drawing follow curves of the profile within ``tolerance``; ``dimensions`` are drawn on it;
+    ``count`` are cut.
     """
 
     suffix: str
@@ -101,6 +102,12 @@ class Part:
     material: str
     tolerance: float = DEFAULT_TOLERANCE
     dimensions: tuple[Dimension, ...] = ()
+    count: int = 1
+
+    @property
+    def caption(self) -> str:
+        """The role, and how many of it to cut where one will not do."""
+        return self.role if self.count == 1 else f"{self.role} (cut {self.count} of it)"
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ def part_cell(part: Part, name: str) -> Cell:
     file = part_file(name, part.suffix)
     details = f"{number(part.thickness * 1e3)} mm {part.material}, {file}"
     shapes = (Shape(part.profile, "part"),)
-    return _cell((part.role, details), shapes, part.dimensions, part.tolerance)
+    return _cell((part.caption, details), shapes, part.dimensions, part.tolerance)
 
 
 def view_cell(view: View) -> Cell:

@@ -45,6 +45,21 @@ def profile_area(profile: Profile) -> float:
     return abs(contour_area(profile.outer)) - holes
 
 
+def profile_polar_moment(profile: Profile, chord: float = DEFAULT_CHORD) -> float:
+    """Integral of r² over the material about the origin, m⁴; on polygons within ``chord`` (m).
+
+    Over the triangle of the origin and an edge a b it is a×b (a·a + a·b + b·b)/12.
+    """
+
+    def of(contour: Contour) -> float:
+        a = contour_points(contour, chord)
+        b = np.roll(a, -1, axis=0)
+        cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+        return abs(float(cross @ np.sum(a * a + a * b + b * b, axis=1))) / 12.0
+
+    return of(profile.outer) - sum(of(contour) for contour in profile.inner)
+
+
 def profile_cut_length(profile: Profile) -> float:
     """Length of all cuts in m."""
     return sum(contour_length(contour) for contour in (profile.outer, *profile.inner))

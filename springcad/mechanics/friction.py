@@ -42,6 +42,19 @@ class FrictionLoop:
         return self.loss / _integral(self.angle, self.loading)
 
 
+def sliding_path(flank: Flank) -> float:
+    """Length that a part slides along the profile from rest to the last angle [m]."""
+    return _integral(flank.angle, np.abs(flank.sliding))
+
+
+def sliding_loss(flank: Flank, count: int) -> float:
+    """Energy lost in a cycle per unit of a small coefficient of friction, 2 n ∫ F |v| dθ [J].
+
+    F and the sliding speed v are those of the frictionless contact of ``count`` parts.
+    """
+    return 2.0 * count * _integral(flank.angle, flank.force * np.abs(flank.sliding))
+
+
 def friction_loop(
     flank: Flank, ahead: Seat, behind: Seat, coefficient: float, *, count: int
 ) -> FrictionLoop:
@@ -60,13 +73,12 @@ def friction_loop(
     slides_ahead = flank.sliding > 0.0
     loading = np.where(slides_ahead, pulled, pushed)
     unloading = np.where(slides_ahead, pushed, pulled)
-    work = 2.0 * coefficient * count * flank.force * np.abs(flank.sliding)
     return FrictionLoop(
         angle=flank.angle,
         loading=loading,
         unloading=unloading,
         loss=_integral(flank.angle, loading - unloading),
-        sliding_work=_integral(flank.angle, work),
+        sliding_work=coefficient * sliding_loss(flank, count),
     )
 
 

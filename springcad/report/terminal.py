@@ -169,7 +169,7 @@ def _print_files(files: Sequence[Path], console: Console) -> None:
 
 
 def _part_line(part: Part) -> str:
-    return f"  {part.role}: {part.material}, {format_value(part.thickness, 'm')} thick"
+    return f"  {part.caption}: {part.material}, {format_value(part.thickness, 'm')} thick"
 
 
 def _remedy(check: Check) -> str:

@@ -59,7 +59,7 @@ def changed(old: str, new: str) -> str:
             "process: wire-edm",
             "process: wire-edm\nzzz: 1",
             "spec.yaml:15:1: zzz: unknown key; a spec takes springcad, kind, name, target, "
-            "envelope, flexures, material, stress, process, mounting, camshaft, optimiser, "
+            "envelope, flexures, material, stress, process, mounting, camshaft, optimiser, stack, "
             "calibration, tolerance",
         ),
         (

@@ -40,7 +40,7 @@ def loop(coefficient: float) -> FrictionLoop:
     camshaft = design_camshaft(beam, inputs)
     flank = camshaft.flanks[0]
     ahead, behind = (
-        seated(beam, inputs, camshaft.slot, flank, sign * coefficient) for sign in (1.0, -1.0)
+        seated(beam, inputs, camshaft, flank, sign * coefficient) for sign in (1.0, -1.0)
     )
     return friction_loop(flank, ahead, behind, coefficient, count=COUNT)
 

@@ -23,7 +23,10 @@ BACKLASH = "camshaft.backlash=0.05 mm"
 
 @pytest.mark.parametrize("name", SPRINGS)
 def test_the_camshaft_as_drawn_gives_the_stiffness_asked_for(name: str) -> None:
-    """Both ways, from the forward analysis, which does not know the torque law."""
+    """Both ways, from the forward analysis, which does not know the torque law.
+
+    The arcs of the drawing cost up to 0.0082 %.
+    """
     for stroke in spring_of(name).strokes:
         assert stroke.angle[-1] == pytest.approx(spring_of(name).law.inputs.deflection, rel=1e-12)
         assert stroke.torque[-1] / stroke.angle[-1] == pytest.approx(150.0, rel=1e-4)

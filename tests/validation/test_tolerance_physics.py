@@ -20,7 +20,9 @@ from springcad.geometry.offset import sideways
 from springcad.geometry.outline import Arc, Curve, Line
 from springcad.geometry.outline_ops import piece_end
 from springcad.kinds.rotary_flexure.as_made import Deviation, behaviour
-from springcad.kinds.rotary_flexure.camshaft import seated, slot_polygon
+from springcad.kinds.rotary_flexure.cam_clearance import slot_polygon
+from springcad.kinds.rotary_flexure.cam_slot import flank_points
+from springcad.kinds.rotary_flexure.camshaft import seated_on
 from springcad.kinds.rotary_flexure.flexure_contact import flexure_beam
 from springcad.kinds.rotary_flexure.offset_parts import (
     moved_slot,
@@ -74,13 +76,14 @@ def offset_beam(spring: Spring, offset: float, compliance: float) -> PreparedBea
 
 @pytest.mark.parametrize("name", ["S1", "S4"])
 def test_a_part_as_drawn_does_what_the_design_says(name: str) -> None:
+    """But for the arcs of the drawing, which the deviations of a cut do not need: 0.01 %."""
     spring = spring_of(name)
     drawn = figures_as_made(spring, Deviation())
     secant = np.mean([s.torque[-1] / s.angle[-1] for s in spring.strokes])
-    assert drawn.stiffness == pytest.approx(secant, rel=1e-9)
+    assert drawn.stiffness == pytest.approx(secant, rel=1e-4)
     assert drawn.stiffness_at_rest == pytest.approx(spring.sized.stiffness_at_rest, rel=1e-9)
     peak = max(float(s.nominal_stress.max()) for s in spring.strokes)
-    assert drawn.stress == pytest.approx(peak, rel=1e-9)
+    assert drawn.stress == pytest.approx(peak, rel=1e-3)
     assert drawn.gap == pytest.approx(min(float(s.gap.min()) for s in spring.strokes), rel=2e-3)
     assert drawn.backlash == spring.camshaft_inputs.backlash
 
@@ -220,7 +223,9 @@ def test_slopes_converge_with_the_square_of_the_step(name: str) -> None:
             offset, outward = (moved, 0.0) if name == "edge_offset" else (0.0, moved)
             beam = offset_beam(spring, offset, spring.sized.root.compliance)
             slot = moved_slot(spring.camshaft.slot, offset, outward)
-            torque.append(float(seated(beam, spring.camshaft_inputs, slot, full).torque[0]))
+            points = flank_points(slot, full.direction)
+            seat = seated_on(beam, spring.camshaft_inputs, points, slot.free_play, full)
+            torque.append(float(seat.torque[0]))
         slopes.append((torque[0] - torque[1]) / (2.0 * step))
     first, second = slopes[0] - slopes[1], slopes[1] - slopes[2]
     assert math.log2(first / second) == pytest.approx(2.0, abs=0.05)
@@ -247,7 +252,8 @@ def test_torque_of_parts_off_the_drawing_is_the_slope_of_their_energy(offset: fl
     beam = offset_beam(spring, offset, offset_root(spring, offset).compliance)
     slot = moved_slot(spring.camshaft.slot, offset, 10 * UM)
     for flank in spring.camshaft.flanks:
-        seat = seated(beam, spring.camshaft_inputs, slot, flank)
+        points = flank_points(slot, flank.direction)
+        seat = seated_on(beam, spring.camshaft_inputs, points, slot.free_play, flank)
         use = seat.angle >= 0.4 * spring.target.deflection
         assert np.count_nonzero(use) > 25
         work = cumulative_simpson(seat.torque[use], x=seat.angle[use], initial=0.0)

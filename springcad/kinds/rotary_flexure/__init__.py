@@ -35,8 +35,10 @@ def check_spec(spec: Spec) -> tuple[Check, ...]:
     """Closed-form checks of a spec of this kind, well under a second."""
     from springcad.kinds.rotary_flexure.feasibility import feasibility_checks
     from springcad.kinds.rotary_flexure.inputs import case_of
+    from springcad.kinds.rotary_flexure.stack import named
 
-    return feasibility_checks(case_of(spec.model))
+    case = case_of(spec.model)
+    return named(feasibility_checks(case), case.stack)
 
 
 def design_spec(spec: Spec, progress: Progress) -> Result:

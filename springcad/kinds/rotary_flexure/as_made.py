@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
-from springcad.kinds.rotary_flexure.camshaft import seated
+from springcad.kinds.rotary_flexure.cam_slot import flank_points
+from springcad.kinds.rotary_flexure.camshaft import seated_on
 from springcad.kinds.rotary_flexure.clearance import deformed_gaps, flexure_gap
 from springcad.kinds.rotary_flexure.flexure_contact import flexure_beam
 from springcad.kinds.rotary_flexure.full_load import stiffness_of_contact
@@ -92,7 +93,8 @@ def behaviour(spring: Spring, deviation: Deviation) -> Behaviour:
     gap = [np.array([flexure_gap(ribbon, inputs.root_radius, inputs.count)])]
     for flank in spring.camshaft.flanks:
         side = _some_angles(flank, spring.target.deflection)
-        seat = seated(beam, spring.camshaft_inputs, slot, side)
+        points = flank_points(slot, side.direction)
+        seat = seated_on(beam, spring.camshaft_inputs, points, slot.free_play, side)
         if len(seat.angle) < len(side.angle) or not np.all(seat.force > 0.0):
             reached = float(seat.angle.max(initial=0.0))
             claim = "angle up to which flexures that are off the drawing rest on the camshaft"

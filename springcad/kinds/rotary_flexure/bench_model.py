@@ -84,10 +84,11 @@ class BenchModel:
 
     Attributes:
         ways: counter-clockwise, clockwise.
-        free_play: angle each way by which the camshaft turns before it touches (rad).
-        reach: largest angle of the table, free play included (rad).
-        peak_torque: at the design deflection (N m).
+        free_play: angle each way by which a camshaft turns before it touches (rad).
+        reach: largest angle of the whole joint in the table, free play included (rad).
+        peak_torque: of the whole joint at the design deflection (N m).
         elastic_modulus: of the design (Pa).
+        parallel, series: sheets on a camshaft, and springs, of the joint on the bench.
     """
 
     ways: tuple[Way, Way]
@@ -95,6 +96,8 @@ class BenchModel:
     reach: float
     peak_torque: float
     elastic_modulus: float
+    parallel: int
+    series: int
 
     def torque(self, bench: Bench, angle: Floats, travel: NDArray[np.intp]) -> Floats:
         """What the bench shows (N,) at angles (N,) while they grow (``travel`` +1) or fall (-1).
@@ -102,13 +105,13 @@ class BenchModel:
         Beyond ``reach`` the last secant stiffness is taken, below the first angle the first.
         """
         turned = angle - bench.angle
-        load = np.maximum(np.abs(turned) - self.free_play, 0.0)
+        load = np.maximum(np.abs(turned) / self.series - self.free_play, 0.0)
         found = np.zeros_like(load)
         for direction, way in zip((1, -1), self.ways, strict=True):
             for onward in (1, -1):
                 here = (np.sign(turned) == direction) & (travel * direction == onward)
                 secant = np.interp(load[here], way.angle, way.stiffness(bench, onward))
-                found[here] = direction * load[here] * secant
+                found[here] = self.parallel * direction * load[here] * secant
         return np.asarray(bench.modulus * found + bench.torque)
 
 
@@ -168,19 +171,30 @@ def seated_as_drawn(
     return replace(found, angle=found.angle - spring.free_play)
 
 
+def stack_counts(written: WrittenDesign) -> tuple[int, int]:
+    """Sheets in parallel and springs in series of the joint; 1 and 1 where nothing is stacked."""
+    if "stack" not in written.design:
+        return 1, 1
+    parallel, series = (written.number(f"design.stack.{key}") for key in ("parallel", "series"))
+    return int(parallel), int(series)
+
+
 def bench_model(written: WrittenDesign, spring: WrittenSpring) -> BenchModel:
-    """The table of a written spring.
+    """The table of a written spring, for the whole joint that it is a part of.
 
     Raises:
         IncompleteDesignError: the flexures do not rest on the camshaft as drawn.
     """
     ways = tuple(_way(written, spring, direction) for direction in (1, -1))
+    parallel, series = stack_counts(written)
     return BenchModel(
         ways=(ways[0], ways[1]),
         free_play=spring.free_play,
-        reach=min(float(way.angle[-1]) for way in ways) + spring.free_play,
-        peak_torque=float(np.max(np.abs(written.array("response.torque_Nm")))),
+        reach=series * (min(float(way.angle[-1]) for way in ways) + spring.free_play),
+        peak_torque=parallel * float(np.max(np.abs(written.array("response.torque_Nm")))),
         elastic_modulus=spring.sheet.elastic_modulus,
+        parallel=parallel,
+        series=series,
     )
 
 

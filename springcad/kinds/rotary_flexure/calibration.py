@@ -20,7 +20,13 @@ from springcad.kinds.rotary_flexure.bench_fit import (
     scatter,
     unknown,
 )
-from springcad.kinds.rotary_flexure.bench_model import FRICTIONS, Bench, BenchModel, bench_model
+from springcad.kinds.rotary_flexure.bench_model import (
+    FRICTIONS,
+    Bench,
+    BenchModel,
+    bench_model,
+    stack_counts,
+)
 from springcad.kinds.rotary_flexure.calibration_text import calibration_text, shown_value
 from springcad.kinds.rotary_flexure.measured import travel_of
 from springcad.kinds.rotary_flexure.written_spring import written_spring
@@ -65,7 +71,8 @@ def calibrate_spring(
     """
     progress("turning the spring on the bench")
     spring = written_spring(written)
-    points = _points(spring.deflection + spring.free_play, file)
+    _, series = stack_counts(written)
+    points = _points(series * (spring.deflection + spring.free_play), file)
     model = bench_model(written, spring)
     designed = Bench(friction=min(written.number("design.camshaft.friction"), FRICTIONS[-1]))
     _require_own(model, designed, points, file)

@@ -129,7 +129,7 @@ def tooth_space(
 
 
 def flank_points(slot: Slot, direction: int) -> Floats:
-    """Dense points (M, 2) of one side from its top; the arc goes on beyond its end by half.
+    """Dense points (M, 2) of one side from its top, as solved; its arc goes on by half.
 
     That a little more than the drawn flank is there helps a search for the contact near rest.
     """

@@ -157,8 +157,8 @@ def _camshaft(spring: Spring) -> Iterator[Check]:
         remedy="raise envelope.contact_radius or lower flexures.count",
     )  # fmt: skip
     yield check(
-        "camshaft tooth bending against yield (estimate)", camshaft.tooth_stress, "<=", yielding,
-        "Pa", source=f"tooth as a cantilever; {same}",
+        "camshaft tooth root stress against yield", camshaft.tooth_stress, "<=", yielding, "Pa",
+        source=f"finite elements of a tooth at the end of its flanks; {same}",
         remedy="raise envelope.contact_radius or lower flexures.count",
     )  # fmt: skip
     yield check(

@@ -14,13 +14,16 @@ from springcad.kinds.rotary_flexure.feasibility import (
     require_feasible,
     resolved_style,
 )
+from springcad.kinds.rotary_flexure.full_load import DIRECTIONS
 from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
 from springcad.kinds.rotary_flexure.law import design_law
+from springcad.kinds.rotary_flexure.overrange import end_of_use
 from springcad.kinds.rotary_flexure.response import stroke
 from springcad.kinds.rotary_flexure.ring import Dowels, ring_profile
 from springcad.kinds.rotary_flexure.sizing import size_flexure
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.kinds.rotary_flexure.stack import of_sheet, stack_of
 from springcad.kinds.rotary_flexure.summary import summarise
 from springcad.kinds.rotary_flexure.trials import (
     BEND_LIMIT,
@@ -40,7 +43,11 @@ def design_spring(spec: Spec, progress: Progress) -> Result:
     Raises:
         InfeasibleError: no part can meet the spec.
     """
-    return summarise(spec, build_spring(rotary_spec(spec.model), progress))
+    model = rotary_spec(spec.model)
+    try:
+        return summarise(spec, build_spring(model, progress))
+    except InfeasibleError as error:
+        raise of_sheet(error, stack_of(model)) from error
 
 
 def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
@@ -101,6 +108,10 @@ def _spring(
         stroke(ribbon, sized.beam, camshaft, inputs, direction, spec.camshaft.friction)
         for direction in (-1, 1)
     )
+    forward, backward = (
+        end_of_use(ribbon, sized.beam, camshaft, inputs, direction, case.yield_strength)
+        for direction in DIRECTIONS
+    )
     return Spring(
         spec=spec,
         case=case,
@@ -112,6 +123,7 @@ def _spring(
         camshaft_inputs=inputs,
         camshaft=camshaft,
         strokes=(counter_clockwise, clockwise),
+        ends=(forward, backward),
         mass=profile_area(ring) * case.inputs.thickness * spec.material.values.density.value,
     )
 
@@ -129,6 +141,7 @@ def camshaft_inputs(
         torque=target.torque,
         energy=target.energy,
         poisson_ratio=spec.material.values.poisson_ratio.value,
+        sheets=case.stack.parallel,
         bore_radius=case.camshaft_bore_radius,
         backlash=spec.camshaft.backlash,
     )

@@ -8,28 +8,24 @@ from collections.abc import Iterator
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.result import Dimension, Part
 
-FLANK_TOLERANCE = 6e-6
-"""The arcs of the camshaft's drawing follow it within this share of the contact radius, 36 nm for
-6 mm: at 2 um they waver enough to change the torque by 0.5 % locally."""
-
 
 def parts(spring: Spring) -> tuple[Part, ...]:
     """Ring and camshaft; the camshaft drawn as finely as its torque asks for."""
     title = spring.spec.material.values.title
-    thickness = spring.law.inputs.thickness
-    tolerance = FLANK_TOLERANCE * spring.law.inputs.contact_radius
+    stack = spring.stack
     return (
         Part(
-            "", "flexure ring", spring.ring, thickness, title,
+            "", "flexure ring", spring.ring, stack.sheet, title,
             dimensions=(
                 _radius("outer", spring.case.outer_radius, 40.0),
                 _radius("root", spring.law.inputs.root_radius, 130.0),
                 _radius("contact", spring.law.inputs.contact_radius, 220.0),
             ),
+            count=stack.sheets,
         ),
         Part(
-            "camshaft", "camshaft", spring.camshaft.profile, thickness, title, tolerance,
-            tuple(_camshaft_dimensions(spring)),
+            "camshaft", "camshaft", spring.camshaft.profile, stack.camshaft_length, title,
+            spring.camshaft.tolerance, tuple(_camshaft_dimensions(spring)), stack.series,
         ),
     )  # fmt: skip
 

@@ -20,6 +20,7 @@ from springcad.kinds.rotary_flexure.room import (
     neighbour_gap,
     packing_bound,
 )
+from springcad.kinds.rotary_flexure.stack import SINGLE, Stack, knobs_of_joint
 from springcad.result import Check, check
 
 Style = Literal["auto", "straight", "serpentine"]
@@ -59,7 +60,7 @@ class LawDemand:
 
 @dataclass(frozen=True)
 class Case:
-    """One spring to be judged, SI: the law's inputs and what surrounds the flexures.
+    """One sheet to be judged, SI: the law's inputs and what surrounds the flexures.
 
     Attributes:
         inputs: of the design law.
@@ -74,6 +75,7 @@ class Case:
         min_slot: narrowest slot with a round bottom that the process cuts.
         least_gap: narrowest gap that the process cuts; ``min_gap`` may not be below it.
         law: what a torque law asks for that is not linear.
+        stack: the sheets of the joint, all alike; those on one camshaft twist it together.
     """
 
     inputs: LawInputs
@@ -88,6 +90,7 @@ class Case:
     min_slot: float = 0.0
     least_gap: float = 0.0
     law: LawDemand | None = None
+    stack: Stack = SINGLE
 
     @property
     def shifted(self) -> Case:
@@ -266,7 +269,7 @@ def _camshaft(case: Case, law: DesignLaw) -> tuple[Check, ...]:
                  source="contact radius - tip nose - bore radius; thinnest web")  # fmt: skip
     if core <= bore:
         return (slot, wall)
-    shear = float(hub_shear_stress(law.torque, core, bore))
+    shear = float(hub_shear_stress(case.stack.parallel * law.torque, core, bore))
     torsion = "torsion of the core within the tips, without notches; von Mises"
     return (
         slot,
@@ -300,7 +303,8 @@ raising a stress is not a cure."""
 def case_remedies(case: Case) -> tuple[str, ...]:
     """Changes of the spec after which every closed-form check passes, each one recomputed."""
     # A law says torque and deflection in ways of its own.
-    own = KNOBS if case.law is None else [k for k in KNOBS if not k.key.startswith("target.")]
+    knobs = knobs_of_joint(KNOBS, case.stack)
+    own = knobs if case.law is None else [k for k in knobs if not k.key.startswith("target.")]
     doubts = _doubts(case)
 
     def left(tried: Case) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from springcad.kinds.rotary_flexure.calibrated import calibrated
 from springcad.kinds.rotary_flexure.feasibility import Case, LawDemand
 from springcad.kinds.rotary_flexure.law import LawInputs
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
+from springcad.kinds.rotary_flexure.stack import law_of_sheet, stack_of
 from springcad.spec.common import CommonSpec
 
 if TYPE_CHECKING:
@@ -24,13 +25,14 @@ def rotary_spec(model: CommonSpec) -> RotaryFlexureSpec:
 
 
 def case_of(model: CommonSpec) -> Case:
-    """The case that the closed forms judge, SI."""
+    """The case that the closed forms judge, of one sheet of the joint, SI."""
     spec = rotary_spec(model)
     material, rules = spec.material.values, spec.process.rules
     dowels, target = spec.mounting.dowels, spec.target
-    law = None
+    law, stack = None, stack_of(spec)
     if target.stiffness is not None:
-        stiffness, deflection = target.stiffness, target.deflection
+        stiffness = target.stiffness * stack.stiffness_share
+        deflection = target.deflection / stack.series
     else:
         torque, energy, at_rest = full_load_of(spec)
         stiffness, deflection = torque**2 / (2.0 * energy), 2.0 * energy / torque
@@ -42,7 +44,7 @@ def case_of(model: CommonSpec) -> Case:
             root_radius=spec.envelope.root_radius,
             contact_radius=spec.envelope.contact_radius,
             count=spec.flexures.count,
-            thickness=spec.envelope.thickness,
+            thickness=stack.sheet,
             elastic_modulus=material.elastic_modulus.value,
             design_stress=spec.material.design_stress,
             tip_half_thickness=0.5 * spec.flexures.tip_thickness,
@@ -58,18 +60,25 @@ def case_of(model: CommonSpec) -> Case:
         least_gap=rules.min_gap,
         min_slot=max(rules.min_gap, 2.0 * rules.min_inside_radius),
         law=law,
+        stack=stack,
     )
 
 
 def full_load_of(spec: RotaryFlexureSpec) -> tuple[float, float, float]:
-    """Torque and energy of the law at the design deflection, and its stiffness at rest."""
-    law, end = target_of(spec), np.array([spec.target.deflection])
+    """Torque and energy of a sheet's law at its largest angle, and its stiffness at rest."""
+    law = target_of(spec)
+    end = np.array([law.deflection])
     torque, energy = float(law.torque(end)[0]), float(law.energy(end)[0])
     return torque, energy, float(law.stiffness(np.zeros(1))[0])
 
 
 def target_of(spec: RotaryFlexureSpec) -> Law:
-    """The torque law of the spring; one of a constant stiffness where that is given."""
+    """The torque law of one sheet of the joint."""
+    return law_of_sheet(joint_target_of(spec), stack_of(spec))
+
+
+def joint_target_of(spec: RotaryFlexureSpec) -> Law:
+    """The torque law of the whole joint; one of a constant stiffness where that is given."""
     # What these load is not needed to check a spec of a constant stiffness.
     from springcad.kinds.given_law import rise_of
     from springcad.kinds.target_law import law_of, polynomial

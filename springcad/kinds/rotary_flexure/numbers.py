@@ -6,10 +6,12 @@ import numpy as np
 
 from springcad.kinds.rotary_flexure.calibrated import root_coefficient
 from springcad.kinds.rotary_flexure.checks import root_fillet_stress
-from springcad.kinds.rotary_flexure.response import both_ways
+from springcad.kinds.rotary_flexure.response import ROUND_OFF, both_ways
 from springcad.kinds.rotary_flexure.room import deflection_bound
 from springcad.kinds.rotary_flexure.root import mounting_of
 from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.mechanics.conjugate import until
+from springcad.mechanics.friction import sliding_loss, sliding_path
 from springcad.result import Value
 
 
@@ -57,6 +59,8 @@ def design_numbers(spring: Spring) -> dict[str, Value]:
             "root_radius_m": camshaft.slot.bottom_radius,
             "tooth_thickness_m": camshaft.tooth_thickness,
             "tooth_height_m": camshaft.tooth_height,
+            "tooth_root_stress_Pa": camshaft.tooth_stress,
+            "torsional_stress_Pa": camshaft.hub_stress,
             "backlash_m": spring.camshaft_inputs.backlash,
             "friction": spring.spec.camshaft.friction,
             "free_play_rad": camshaft.slot.free_play,
@@ -81,6 +85,10 @@ def response_numbers(spring: Spring) -> dict[str, Value]:
         "min_gap_m": spring.found.gap,
         "min_deformed_gap_m": min(float(stroke.gap.min()) for stroke in spring.strokes),
         "peak_contact_pressure_Pa": peak(spring, "pressure"),
+        **sliding(spring),
+        "usable_angle_rad": spring.end.angle,
+        "usable_torque_Nm": spring.end.torque,
+        "usable_limit": spring.end.limit,
         "angle_rad": both_ways(forward.angle, -backward.angle),
         "torque_Nm": both_ways(forward.torque, -backward.torque),
         "stored_energy_J": both_ways(forward.energy, backward.energy),
@@ -92,6 +100,17 @@ def response_numbers(spring: Spring) -> dict[str, Value]:
         "gap_angle_rad": both_ways(forward.gap_angle, -backward.gap_angle),
         "gap_m": both_ways(forward.gap, backward.gap),
         **hysteresis(spring),
+    }
+
+
+def sliding(spring: Spring) -> dict[str, Value]:
+    """How far the tips slide up to the design deflection, and what dry friction makes of it."""
+    stroke = spring.target.deflection * (1.0 + ROUND_OFF)
+    flanks = [until(flank, stroke) for flank in spring.camshaft.flanks]
+    count = spring.law.inputs.count
+    return {
+        "sliding_path_m": max(map(sliding_path, flanks)),
+        "loss_per_friction_J": 0.5 * sum(sliding_loss(flank, count) for flank in flanks),
     }
 
 

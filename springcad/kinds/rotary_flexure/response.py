@@ -1,9 +1,10 @@
 """What the finished spring does over its stroke, in both directions.
 
-The ring is seated on the camshaft as drawn: a forward problem that knows nothing of the torque law
-for which the camshaft was made. The flexures are geometrically exact beams on the springs of their
-roots; contact is frictionless unless the spec gives a coefficient. Angles do not count the free
-play, by which a camshaft with backlash first turns without touching the flexures.
+The ring is seated on the camshaft as drawn, on the very arcs of its drawing: a forward problem that
+knows nothing of the torque law for which the camshaft was made. The flexures are geometrically
+exact beams on the springs of their roots; contact is frictionless unless the spec gives a
+coefficient. Angles do not count the free play, by which a camshaft with backlash first turns
+without touching the flexures.
 """
 
 from __future__ import annotations
@@ -77,7 +78,7 @@ def stroke(
     """
     index = 0 if direction > 0 else 1
     flank = camshaft.flanks[index]
-    seat = seated(beam, inputs, camshaft.slot, flank)
+    seat = seated(beam, inputs, camshaft, flank)
     within = seat.angle <= inputs.deflection * (1.0 + ROUND_OFF)
     reached = float(seat.angle[within].max(initial=0.0))
     if reached < inputs.deflection * (1.0 - ROUND_OFF):
@@ -114,7 +115,7 @@ def _friction(
     """The loop up to the design deflection."""
     stroked = until(flank, inputs.deflection * (1.0 + ROUND_OFF))
     ahead, behind = (
-        seated(beam, inputs, camshaft.slot, stroked, sign * coefficient) for sign in (1.0, -1.0)
+        seated(beam, inputs, camshaft, stroked, sign * coefficient) for sign in (1.0, -1.0)
     )
     reached = min(float(seat.angle.max(initial=0.0)) for seat in (ahead, behind))
     if reached < stroked.angle[-1] * (1.0 - ROUND_OFF):

@@ -8,7 +8,7 @@ from springcad.errors import InfeasibleError
 from springcad.kinds.law_sheet import law_steps
 from springcad.kinds.rotary_flexure.design import build_spring
 from springcad.kinds.rotary_flexure.feasibility import Case, feasibility_checks
-from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
+from springcad.kinds.rotary_flexure.inputs import case_of, joint_target_of, rotary_spec
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.sheet_law import law_section, room_section
 from springcad.kinds.rotary_flexure.sheet_spring import (
@@ -57,8 +57,19 @@ def _closed(spec: RotaryFlexureSpec, case: Case) -> tuple[Section, ...]:
 
 
 def _given(spec: RotaryFlexureSpec, case: Case) -> Iterator[Step]:
-    inputs, target = case.inputs, spec.target
-    if target.stiffness is not None:
+    inputs, target, stack = case.inputs, spec.target, case.stack
+    page = "theory/rotary-flexure.md, 12"
+    if stack.sheets > 1:
+        yield given("p_s", "sheets side by side on one camshaft", stack.parallel, "1")
+        yield given("m_s", "springs one behind the other", stack.series, "1")
+    if target.stiffness is not None and stack.sheets > 1:
+        yield given("k_j", "stiffness of the whole joint", target.stiffness, "N*m/rad")
+        yield given("theta_j", "deflection of the joint, each way", target.deflection, "rad")
+        yield derived("k", "stiffness of one sheet", "k_j*m_s/p_s", inputs.stiffness, "N*m/rad",
+                      page)  # fmt: skip
+        yield derived("theta", "deflection of one sheet, each way", "theta_j/m_s",
+                      inputs.deflection, "rad", page)  # fmt: skip
+    elif target.stiffness is not None:
         yield given("k", "stiffness of the spring", inputs.stiffness, "N*m/rad")
         yield given("theta", "deflection, each way", inputs.deflection, "rad")
     else:
@@ -83,8 +94,10 @@ def _law(spec: RotaryFlexureSpec, case: Case) -> Iterator[Step]:
     page, law = "theory/rotary-flexure.md, 10", spec.target.law
     assert law is not None, "a valid spec has a stiffness or a law"
     yield given("theta_w", "deflection, each way", spec.target.deflection, "rad")
-    yield from law_steps(law, target_of(spec), "theta_w")
-    yield derived("k", "stiffness of the linear spring with both", "T_w**2/(2*W_w)",
+    yield from law_steps(law, joint_target_of(spec), "theta_w")
+    stack = case.stack
+    share, turn = ("*m_s/p_s", "/m_s") if stack.sheets > 1 else ("", "")
+    yield derived("k", "stiffness of the linear spring with both", f"T_w**2/(2*W_w){share}",
                   case.inputs.stiffness, "N*m/rad", page)  # fmt: skip
-    yield derived("theta", "deflection of that spring", "2*W_w/T_w", case.inputs.deflection, "rad",
-                  page)  # fmt: skip
+    yield derived("theta", "deflection of that spring", f"2*W_w/T_w{turn}",
+                  case.inputs.deflection, "rad", page)  # fmt: skip

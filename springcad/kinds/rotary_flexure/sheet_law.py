@@ -121,8 +121,10 @@ def _room(case: Case, law: DesignLaw, density: float) -> Iterator[Step]:
                   f"{_PAGE}, 5")  # fmt: skip
     if core > bore:
         inner = "c_0**4 - r_b**4" if bore else "c_0**4"
-        yield derived("tau_0", "torsion of the core", f"2*T*c_0/(pi*({inner}))",
-                      float(hub_shear_stress(law.torque, core, bore)), "Pa",
+        sheets = case.stack.parallel
+        twisted = "p_s*T" if case.stack.sheets > 1 else "T"
+        yield derived("tau_0", "torsion of the core", f"2*{twisted}*c_0/(pi*({inner}))",
+                      float(hub_shear_stress(sheets * law.torque, core, bore)), "Pa",
                       f"{_PAGE}, 5", "round, no notch")  # fmt: skip
     mass = ring_mass(law.flexure_area, n, R, case.outer_radius, t, density)
     yield derived("m_0", "mass of the ring, estimate", "rho*t*(n*A_f + pi*(R_o**2 - R**2))",

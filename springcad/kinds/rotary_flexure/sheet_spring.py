@@ -164,18 +164,22 @@ def _camshaft(spring: Spring) -> Iterator[Step]:
     modulus = contact_modulus(*(inputs.elastic_modulus, spring.camshaft_inputs.poisson_ratio) * 2)
     force = max(float(side.force.max()) for side in camshaft.flanks)
     torque = float(spring.target.torque(camshaft.flanks[0].angle[-1:])[0])
+    lever = slot.tip_radius - slot.foot_radius
+    bending = 6.0 * force * lever / (inputs.thickness * camshaft.tooth_thickness**2)
     yield derived("E_c", "modulus of the contact", "E/(2*(1 - nu**2))", modulus, "Pa",
                   "Johnson, Eq. 4.6", "ring and camshaft of one material")  # fmt: skip
     yield found("F_e", "largest force of a tip, to the end of the flanks", force, "N",
                 "theory/conjugate-profiles.md")  # fmt: skip
-    yield found("T_e", "torque there", torque, "N*m", "target")
+    yield found("T_e", "torque there, of all sheets on a camshaft", spring.stack.parallel * torque,
+                "N*m", "target")  # fmt: skip
     yield found("b_c", "thinnest place of a tooth", camshaft.tooth_thickness, "m", "outline")
     yield found("r_t", "radius of the teeth's tips", slot.tip_radius, "m", "outline")
     yield found("r_c", "radius of the centre of a slot's bottom", slot.foot_radius, "m", "outline")
-    yield derived("l_t", "lever of the tooth", "r_t - r_c", slot.tip_radius - slot.foot_radius, "m",
-                  "outline")  # fmt: skip
-    yield derived("sigma_t", "bending of a tooth, estimate", "6*F_e*l_t/(t*b_c**2)",
-                  camshaft.tooth_stress, "Pa", "cantilever, no notch")  # fmt: skip
+    yield derived("l_t", "lever of the tooth", "r_t - r_c", lever, "m", "outline")
+    yield derived("sigma_b", "bending of a tooth, estimate", "6*F_e*l_t/(t*b_c**2)", bending, "Pa",
+                  "cantilever, no notch")  # fmt: skip
+    yield found("sigma_t", "stress at the root of a tooth", camshaft.tooth_stress, "Pa",
+                "finite elements; theory/camshaft.md, 2")  # fmt: skip
     yield found("r_s", "radius of the slots' bottom", slot.bottom_radius, "m", "outline")
     inner = "r_s**4 - r_b**4" if bore else "r_s**4"
     yield derived("tau", "torsion of the core", f"2*T_e*r_s/(pi*({inner}))", camshaft.hub_stress,

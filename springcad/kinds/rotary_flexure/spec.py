@@ -18,6 +18,7 @@ from springcad.kinds.rotary_flexure.calibration_spec import (
     one_friction,
     same_material,
 )
+from springcad.kinds.rotary_flexure.stack_spec import STACK_RULES, StackSection
 from springcad.kinds.rotary_flexure.tolerance_spec import TOLERANCE_RULES, Tolerance
 from springcad.spec.common import (
     AutoLength,
@@ -44,9 +45,9 @@ class Target(Section):
     """What the spring is to do."""
 
     stiffness: TorsionalStiffness | None = None
-    """Constant torsional stiffness of the whole spring, in N*m/rad or N*m/deg; or a law."""
+    """Constant torsional stiffness of the whole joint, in N*m/rad or N*m/deg; or a law."""
     law: Law | None = None
-    """Torque of the whole spring over the angle, in place of a constant stiffness."""
+    """Torque of the whole joint over the angle, in place of a constant stiffness."""
     deflection: Annotated[float, angle("0.01 deg", "60 deg")]
     """Largest deflection in normal use, one way from rest, in deg."""
 
@@ -60,8 +61,8 @@ class Envelope(Section):
     """Radius at which the flexures leave the rim, in mm."""
     contact_radius: Length
     """Radius at which the flexure tips touch the camshaft at rest, in mm."""
-    thickness: Length
-    """Thickness of the sheet, in mm."""
+    thickness: Length | None = None
+    """Thickness of the sheet, in mm; with a stack, of the sheets of one spring together."""
 
 
 class Flexures(Section):
@@ -249,6 +250,7 @@ class RotaryFlexureSpec(CommonSpec):
         _weighting,
         same_material,
         one_friction,
+        *STACK_RULES,
         *TOLERANCE_RULES,
     )
 
@@ -275,6 +277,8 @@ class RotaryFlexureSpec(CommonSpec):
     """The toothed shaft inside the flexures."""
     optimiser: Optimiser = Field(default_factory=Optimiser)
     """How the serpentine centre line is searched for."""
+    stack: StackSection = Field(default_factory=StackSection)
+    """Sheets in parallel and springs in series, as one joint."""
     calibration: CalibrationEntry = None
     """What a bench test of an earlier design has told: a file of springcad calibrate."""
     tolerance: Tolerance | None = None

@@ -8,10 +8,12 @@ from springcad.geometry.outline import Profile
 from springcad.kinds.rotary_flexure.camshaft import Camshaft, CamshaftInputs
 from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.law import DesignLaw
+from springcad.kinds.rotary_flexure.overrange import EndOfUse
 from springcad.kinds.rotary_flexure.response import Stroke
 from springcad.kinds.rotary_flexure.search import Found
 from springcad.kinds.rotary_flexure.sizing import Sized
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
+from springcad.kinds.rotary_flexure.stack import Stack
 from springcad.kinds.target_law import Law
 from springcad.mechanics.beam import PreparedBeam
 from springcad.result import Check
@@ -19,15 +21,17 @@ from springcad.result import Check
 
 @dataclass(frozen=True)
 class Spring:
-    """Everything that was decided about one spring and what it does; SI.
+    """Everything that was decided about one sheet of a joint and what it does; SI.
 
     Attributes:
-        spec, case, law, target: what it was designed for; the torque law is the target.
+        spec, case, law, target: what it was designed for; the torque law is the target, the spec
+            that of the whole joint.
         feasibility: the closed-form checks that it passed before the search.
         sized: its flexures.
         ring: the flexure ring.
         camshaft_inputs, camshaft: the camshaft.
         strokes: counter-clockwise, clockwise.
+        ends: how far it may be turned, counter-clockwise and clockwise.
         mass: of the ring.
     """
 
@@ -41,7 +45,18 @@ class Spring:
     camshaft_inputs: CamshaftInputs
     camshaft: Camshaft
     strokes: tuple[Stroke, Stroke]
+    ends: tuple[EndOfUse, EndOfUse]
     mass: float
+
+    @property
+    def stack(self) -> Stack:
+        """The sheets of the joint, of which this is one."""
+        return self.case.stack
+
+    @property
+    def end(self) -> EndOfUse:
+        """How far it may be turned whichever way."""
+        return min(self.ends, key=lambda end: end.angle)
 
     @property
     def found(self) -> Found:

@@ -130,7 +130,9 @@ class _Rings:
             limit / thickness_factor**2,
             tooth_width(radius, count, tip),
             neighbour_gap(span, radius, count, thick, tip),
-            hub_shear_stress(k * theta, radius - tip, case.camshaft_bore_radius),
+            hub_shear_stress(
+                case.stack.parallel * k * theta, radius - tip, case.camshaft_bore_radius
+            ),
         )
         return cls(*np.broadcast_arrays(*columns))
 

@@ -10,9 +10,17 @@ from springcad.kinds.lasting import Loading
 from springcad.kinds.rotary_flexure.calibrated import calibrated_sources
 from springcad.kinds.rotary_flexure.checks import root_fillet_stress, spring_checks
 from springcad.kinds.rotary_flexure.drawn_parts import parts
+from springcad.kinds.rotary_flexure.joint import (
+    joint_assumptions,
+    joint_design,
+    joint_plot,
+    joint_response,
+    with_joint,
+)
 from springcad.kinds.rotary_flexure.numbers import design_numbers, peak, response_numbers
 from springcad.kinds.rotary_flexure.plots import plots
 from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.kinds.rotary_flexure.stack import named
 from springcad.kinds.rotary_flexure.tolerance_report import with_tolerance
 from springcad.kinds.rotary_flexure.words import advice, assumptions
 from springcad.kinds.strength import with_strength
@@ -22,17 +30,18 @@ from springcad.spec.source import Spec
 
 def summarise(spec: Spec, spring: Spring) -> Result:
     """Everything that the reports and files show."""
+    stacked = spring.stack.sheets > 1
     result = Result(
         kind=spec.kind,
         name=spec.name,
         spec=spec.raw,
-        design=design_numbers(spring),
-        response=response_numbers(spring),
-        checks=spring_checks(spring),
-        outcomes=_outcomes(spring),
+        design=design_numbers(spring) | ({"stack": joint_design(spring)} if stacked else {}),
+        response=response_numbers(spring) | ({"joint": joint_response(spring)} if stacked else {}),
+        checks=named(spring_checks(spring), spring.stack),
+        outcomes=with_joint(spring, _outcomes(spring)) if stacked else _outcomes(spring),
         parts=parts(spring),
-        plots=plots(spring),
-        assumptions=assumptions(spring),
+        plots=(*((joint_plot(spring),) if stacked else ()), *plots(spring)),
+        assumptions=(*joint_assumptions(spring), *assumptions(spring)),
         advice=tuple(advice(spring)),
         provenance=_provenance(spec, spring),
     )
@@ -53,7 +62,7 @@ def _loading(spring: Spring) -> Loading:
         share=share,
         stress=np.maximum(ahead, behind),
         section=(root, spring.law.inputs.thickness),
-        torque=forward.torque,
+        torque=spring.stack.parallel * forward.torque,
         local={
             "inner-fibre stress": peak(spring, "local_stress"),
             "root fillet stress": root_fillet_stress(spring),
@@ -90,6 +99,10 @@ def _outcomes(spring: Spring) -> tuple[Outcome, ...]:
                 "the smaller of both directions"),
         Outcome("contact pressure", number("peak_contact_pressure_Pa"), "Pa"),
         Outcome("force on a tip", law.force, "N"),
+        Outcome("sliding of a tip, one way", number("sliding_path_m"), "m", None,
+                f"{0.1 * number('loss_per_friction_J') / number('energy_J'):.1%} of the energy is "
+                "lost in a cycle for each 0.1 of friction"),
+        Outcome("usable to, either way", spring.end.angle, "rad", None, f"then {spring.end.limit}"),
         Outcome("serpentine factor", law.serpentine_factor, "1", None, "004, section II-B"),
         Outcome("density factor", law.density_factor, "1", None, "004, section II-B"),
         Outcome("energy per mass", number("energy_J") / spring.mass, "J/kg", None, "ring alone"),

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from springcad.kinds.rotary_flexure.stack_spec import StackSection
 from springcad.spec.common import Count, Length, LengthOrZero, Quantity, default
 from springcad.spec.rules import Section, rule
 from springcad.spec.units import LENGTH, show
@@ -53,12 +54,16 @@ def something_varies(tolerance: Tolerance | None) -> str | None:
     return "give at least one of sheet_thickness, edge_offset, contact_radius, modulus above 0"
 
 
-@rule("tolerance.sheet_thickness", "envelope.thickness")
-def sheet_within(bound: float, thickness: Length) -> str | None:
+@rule("tolerance.sheet_thickness", "envelope.thickness", "stack")
+def sheet_within(bound: float, thickness: float | None, stack: StackSection) -> str | None:
     """Rule: a sheet is left."""
-    if bound <= 0.2 * thickness:
+    key, sheet = "stack.sheet", stack.sheet
+    if sheet is None and isinstance(stack.parallel, int) and thickness is not None:
+        sheet = thickness / stack.parallel
+        key = "envelope.thickness" if stack.parallel == 1 else "a sheet's thickness"
+    if sheet is None or bound <= 0.2 * sheet:
         return None
-    return f"must be at most a fifth of envelope.thickness, {show(0.2 * thickness, LENGTH)}"
+    return f"must be at most a fifth of {key}, {show(0.2 * sheet, LENGTH)}"
 
 
 @rule("tolerance.edge_offset", "flexures.tip_thickness")
