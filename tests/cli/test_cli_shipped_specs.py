@@ -11,7 +11,7 @@ import pytest
 
 Run = Callable[..., "subprocess.CompletedProcess[str]"]
 SPECS = Path(__file__).parents[2] / "specs"
-TWO = [SPECS / "S1.yaml", SPECS / "S3.yaml"]
+TWO = [SPECS / "S3.yaml", SPECS / "S1.yaml"]
 
 
 def test_every_shipped_spec_passes_check(run_springcad: Run) -> None:
@@ -28,10 +28,10 @@ def test_designs_of_one_run_do_not_touch_each_other(run_springcad: Run, tmp_path
     assert [entry["exit_code"] for entry in json.loads(together.stdout)] == [0, 0]
     alone = run_springcad("design", TWO[1], "-o", "alone", "--no-verify")
     assert alone.returncode == 0, alone.stderr
-    files = sorted(path.name for path in (tmp_path / "alone" / "S3").iterdir())
-    assert "S3.dxf" in files
+    files = sorted(path.name for path in (tmp_path / "alone" / "S1").iterdir())
+    assert "S1.dxf" in files
     for name in files:
-        one, other = (tmp_path / folder / "S3" / name for folder in ("alone", "together"))
+        one, other = (tmp_path / folder / "S1" / name for folder in ("alone", "together"))
         assert one.read_bytes() == other.read_bytes(), name
 
 

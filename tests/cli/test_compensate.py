@@ -110,7 +110,8 @@ def test_the_next_design_is_made_for_a_pseudo_law_and_says_so(knee_c1: Path) -> 
     expected, angle = (np.array(response[f"{key}angle_rad"]) for key in ("expected_", ""))
     np.testing.assert_allclose(expected / angle, 1.04, rtol=1e-3)
     assert response["max_torque_Nm"] == pytest.approx(0.3 * (10**1.9 - 1), rel=3e-3)
-    assert response["torque_error"] < 0.004
+    # Of the torque error 0.2 % each are allowed to the two drawings; the rest is compensation's.
+    assert response["torque_error"] < 0.004 + made["design"]["torque_errors_of_updates"][-1] < 0.005
     (given,) = (o for o in made["outcomes"] if o["label"] == "torque error of knee, as given")
     assert 0.04 < given["value"] < 0.2
     names = [check["name"] for check in made["checks"]]

@@ -147,10 +147,11 @@ def test_the_decks_of_an_omega_leaf_are_its_halves(omega_folder: Path, omega):
     assert force == pytest.approx(omega["response"]["force_N"][-1], rel=0.02)
 
 
-def test_a_triangle_has_no_deck_and_that_is_said(capsys, straight_folder: Path):
+def test_a_triangle_has_a_deck_with_a_section_for_each_width(capsys, straight_folder: Path):
     assert run(["verify", str(straight_folder / "lever-triangular"), "--deck"]) == 0
-    assert "no input deck" in capsys.readouterr().err
-    assert not list((straight_folder / "lever-triangular").glob("*.inp"))
+    assert "lever-triangular-leaf.inp" in capsys.readouterr().out
+    deck = (straight_folder / "lever-triangular" / "lever-triangular-leaf.inp").read_text()
+    assert deck.upper().count("*SOLID SECTION") > 10
 
 
 def test_a_drawing_of_another_leaf_is_found_out(capsys, straight_folder: Path, tmp_path: Path):
