@@ -6,8 +6,11 @@ from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Profile
 from springcad.geometry.outline_ops import profile_area, profile_faults
 from springcad.geometry.ribbon import Ribbon
+from springcad.kinds.rotary_flexure.aim import is_open
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
 from springcad.kinds.rotary_flexure.checks import spring_checks
+from springcad.kinds.rotary_flexure.choice_report import with_choice
+from springcad.kinds.rotary_flexure.choosing import choose
 from springcad.kinds.rotary_flexure.feasibility import Case, failures, require_feasible
 from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
 from springcad.kinds.rotary_flexure.law import design_law
@@ -29,12 +32,16 @@ from springcad.spec.source import Spec
 
 
 def design_spring(spec: Spec, progress: Progress) -> Result:
-    """Design ring and camshaft and say what they do.
+    """Design ring and camshaft and say what they do; what is left open is chosen first.
 
     Raises:
         InfeasibleError: no part can meet the spec.
     """
-    return summarise(spec, build_spring(rotary_spec(spec.model), progress))
+    model = rotary_spec(spec.model)
+    if not is_open(model):
+        return summarise(spec, build_spring(model, progress))
+    choice = choose(model, spring_of, progress)
+    return with_choice(summarise(spec, choice.spring), choice)
 
 
 def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
@@ -46,7 +53,7 @@ def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
     case = case_of(spec).shifted
     feasibility = require_feasible(case)
     try:
-        return _spring(spec, case, feasibility, progress)
+        return spring_of(spec, case, feasibility, progress)
     except InfeasibleError as error:
         progress("no part can be made: trying what would help")
         tried = changes_that_work(spec, (BEND_LIMIT, DEFLECTION, TIP_THICKNESS), _passes)
@@ -59,15 +66,16 @@ def _passes(spec: RotaryFlexureSpec) -> bool:
     if failures(case):
         return False
     try:
-        spring = _spring(spec, case, (), lambda _: None)
+        spring = spring_of(spec, case, (), lambda _: None)
     except InfeasibleError:
         return False
     return all(claim.status != "fail" for claim in spring_checks(spring))
 
 
-def _spring(
+def spring_of(
     spec: RotaryFlexureSpec, case: Case, feasibility: tuple[Check, ...], progress: Progress
 ) -> Spring:
+    """The spring of a case that is feasible; InfeasibleError where no part is found."""
     law, target = design_law(case.inputs), target_of(spec)
     sized = size_flexure(spec, case, law, target, progress)
     ribbon = sized.found.ribbon
