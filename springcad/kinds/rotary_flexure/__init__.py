@@ -31,10 +31,15 @@ __all__ = [
 
 def check_spec(spec: Spec) -> tuple[Check, ...]:
     """Closed-form checks of a spec of this kind, well under a second."""
+    from springcad.kinds.rotary_flexure.aim import Aim, is_open
+    from springcad.kinds.rotary_flexure.candidates import range_checks
     from springcad.kinds.rotary_flexure.feasibility import feasibility_checks
-    from springcad.kinds.rotary_flexure.inputs import case_of
+    from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec
 
-    return feasibility_checks(case_of(spec.model))
+    model = rotary_spec(spec.model)
+    if is_open(model):
+        return range_checks(Aim.of(model))
+    return feasibility_checks(case_of(model))
 
 
 def design_spec(spec: Spec, progress: Progress) -> Result:

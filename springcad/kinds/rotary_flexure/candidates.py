@@ -14,13 +14,15 @@ from springcad.kinds.rotary_flexure.aim import Aim, Pair
 from springcad.kinds.rotary_flexure.feasibility import failures
 from springcad.kinds.rotary_flexure.inputs import number
 from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
+from springcad.result import Check, check
+from springcad.spec.units import LENGTH, show
 
 FEWEST, MOST = 3, 400
-COUNT_RATIO = 1.2
+COUNT_RATIO = 1.25
 """Counts first looked at are so far apart."""
-RADIUS_RATIO = 1.15
+RADIUS_RATIO = 1.2
 """The same of contact radii."""
-RADII = 20
+RADII = 16
 """Contact radii at most of each count, from the smallest that leaves room for the teeth."""
 _DIGITS = 3
 """Digits of a contact radius that is chosen: 0.01 mm from 1 to 10 mm."""
@@ -140,3 +142,39 @@ def _counts() -> Iterator[int]:
 
 def _root_radius(aim: Aim) -> float:
     return aim.largest_root or number(aim.spec.envelope.root_radius)
+
+
+def range_checks(aim: Aim) -> tuple[Check, ...]:
+    """What the closed forms leave of the range: the rings that they allow, and the best bound."""
+    allowed = candidates(aim)
+    name = f"rings for objective {aim.objective} within all closed-form limits"
+    if not allowed:
+        source = "every ring tried fails one of them at every level of the objective"
+        return (check(name, 0.0, ">=", 1.0, "1", source=source, remedy=_remedy(aim)),)
+    counts = [ring.pair.count for ring in allowed]
+    radii = [ring.pair.contact_radius for ring in allowed]
+    ranges = (
+        f"{name}, counts {min(counts)} to {max(counts)}, "
+        f"contact radii {show(min(radii), LENGTH)} to {show(max(radii), LENGTH)}"
+    )
+    possible = check(
+        ranges, float(len(allowed)), ">=", 1.0, "1", source="closed forms, every ring tried"
+    )
+    if aim.objective != "deflection":
+        return (possible,)
+    best = max(aim.value(ring.bound) for ring in allowed)
+    return (
+        possible,
+        check("deflection that no ring of them can pass", best, ">=", aim.value(aim.lowest), "rad",
+              source="closed forms alone; the search ends below it"),
+    )  # fmt: skip
+
+
+def _remedy(aim: Aim) -> str:
+    """What fails for the ring in the middle of the range."""
+    pairs = list(_pairs(aim))
+    inside = [p for p in pairs if p.contact_radius < _root_radius(aim)]
+    if not inside:
+        return "lower envelope.contact_radius or raise envelope.root_radius"
+    failed = failures(aim.at(inside[len(inside) // 2], aim.lowest).case)
+    return f"a ring in the middle of the range fails: {'; '.join(failed)}" if failed else ""

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.pressure import PRESSURE_OVER_ULTIMATE
-from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.result import Check, check
+
+if TYPE_CHECKING:
+    from springcad.kinds.rotary_flexure.spring import Spring
 
 Floats = NDArray[np.float64]
 

@@ -14,16 +14,19 @@ each of the m dowels; in a bore they go into the housing where they arise. On th
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from springcad.kinds.rotary_flexure.law import DesignLaw
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
-from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.result import Check, check
+
+if TYPE_CHECKING:
+    from springcad.kinds.rotary_flexure.spring import Spring
 
 RIM_STEP = 1e-4
 """Widths are multiples of a tenth of a millimetre, m."""
-SPARE = 1.02
-"""What a rim is made stronger by: the law's force is that at the contact radius, m."""
+SPARE = 1.03
+"""Force that a rim is made for over that of the law, in which the contact does not move."""
 
 
 def rim_stress(force: float, span: float, thickness: float, width: float, pull: float) -> float:
