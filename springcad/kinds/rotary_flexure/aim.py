@@ -179,9 +179,7 @@ def _full_disk(spec: RotaryFlexureSpec) -> float:
         update={"root_radius": 1.0, "outer_radius": 2.0, "contact_radius": 0.5}
     )
     flexures = spec.flexures.model_copy(update={"count": 10})
-    inputs = case_of(
-        spec.model_copy(update={"envelope": envelope, "flexures": flexures})
-    ).inputs
+    inputs = case_of(spec.model_copy(update={"envelope": envelope, "flexures": flexures})).inputs
     bound = deflection_bound(
         inputs.stiffness, 1.0, 0.0, inputs.thickness, inputs.design_stress, inputs.elastic_modulus
     )

@@ -17,9 +17,9 @@ from springcad.kinds.rotary_flexure.rim import rim_check
 from springcad.result import Result, Value
 
 NEXT = 1.02
-"""Contact radii and counts next to the chosen ones, of which it is said what forbids them."""
-_UNITS = {"deflection": "rad", "margin": "1", "diameter": "m", "mass": "1"}
-_SHOWN = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa"), "rad": (180.0 / math.pi, "deg")}
+"""A contact radius so much smaller is said to be forbidden, or not."""
+_UNITS = {"deflection": "rad", "margin": "1", "diameter": "m", "mass": "kg"}
+_SHOWN = {"m": (1e3, " mm"), "Pa": (1e-6, " MPa"), "rad": (180.0 / math.pi, " deg"), "1": (1.0, "")}
 
 
 def with_choice(result: Result, choice: Choice) -> Result:
@@ -37,47 +37,54 @@ def with_choice(result: Result, choice: Choice) -> Result:
 
 def choice_numbers(choice: Choice) -> Mapping[str, Value]:
     """The section ``design.choice`` of the report, SI."""
-    aim = choice.aim
-    counts, radii = (
-        [float(c.pair.count) for c in choice.allowed],
-        [c.pair.contact_radius for c in choice.allowed],
-    )
+    aim, considered = choice.aim, choice.considered
+    counts = [float(ring.pair.count) for ring in choice.allowed]
+    radii = [ring.pair.contact_radius for ring in choice.allowed]
+    is_mass = aim.objective == "mass"
     return {
         "objective": aim.objective,
         "unit": _UNITS[aim.objective],
-        "value": aim.value(choice.level),
-        "closed_form_bound": aim.value(choice.bound),
-        "stopped_by": None if choice.stop is None else _stop_numbers(choice.stop),
+        "value": choice.spring.mass if is_mass else aim.value(choice.level),
+        "closed_form_bound": None if is_mass else aim.value(choice.bound),
+        "stopped_by": _stop_numbers(choice.next),
         "next_rings_forbidden_by": list(_fences(choice)),
-        "allowed": {
-            "rings": len(choice.allowed),
-            "flexure_count": np.array([min(counts), max(counts)]),
-            "contact_radius_m": np.array([min(radii), max(radii)]),
-        },
-        "considered": {
-            "flexure_count": np.array([float(s.pair.count) for s in choice.considered]),
-            "contact_radius_m": np.array([s.pair.contact_radius for s in choice.considered]),
-            "law_value": np.array([_between(choice, s.level) for s in choice.considered]),
-        },
-        "designs": [_design_numbers(choice, design) for design in choice.designs],
+        "allowed_rings": len(choice.allowed),
+        "allowed_flexure_count": np.array([min(counts), max(counts)]),
+        "allowed_contact_radius_m": np.array([min(radii), max(radii)]),
+        "considered_flexure_count": np.array([float(ring.pair.count) for ring in considered]),
+        "considered_contact_radius_m": np.array([ring.pair.contact_radius for ring in considered]),
+        "considered_value": np.array([_between(choice, ring.level) for ring in considered]),
+        "designs": [
+            {
+                "flexure_count": design.pair.count,
+                "contact_radius_m": design.pair.contact_radius,
+                "value": _value(choice, design),
+                "stopped_by": _stop_numbers(design),
+            }
+            for design in choice.designs
+        ],
     }
 
 
 def _between(choice: Choice, level: float) -> float:
+    """What a level between two steps stands for; not a number for the mass, which has one level."""
     low = math.floor(level)
-    return float(np.interp(level, [low, low + 1], [choice.aim.value(n) for n in (low, low + 1)]))
+    ends = [
+        math.nan if choice.aim.objective == "mass" else choice.aim.value(low + n) for n in (0, 1)
+    ]
+    return float(np.interp(level, [low, low + 1], ends))
 
 
-def _design_numbers(choice: Choice, design: Design) -> Mapping[str, Value]:
-    return {
-        "flexure_count": design.pair.count,
-        "contact_radius_m": design.pair.contact_radius,
-        "value": choice.aim.value(design.level),
-        "stopped_by": None if design.stop is None else _stop_numbers(design.stop),
-    }
+def _value(choice: Choice, design: Design) -> float | None:
+    if choice.aim.objective != "mass":
+        return choice.aim.value(design.level)
+    return None if design.spring is None else design.spring.mass
 
 
-def _stop_numbers(stop: Stop) -> Mapping[str, Value]:
+def _stop_numbers(design: Design | None) -> Mapping[str, Value] | None:
+    if design is None or design.stop is None:
+        return None
+    stop = design.stop
     return {"claim": stop.claim, "value": stop.value, "limit": stop.limit, "unit": stop.unit}
 
 
@@ -97,52 +104,48 @@ def _fence(choice: Choice, pair: Pair, words: str) -> Iterator[str]:
 
 
 def _words(choice: Choice) -> Iterator[str]:
-    aim, case = choice.aim, choice.spring.case
+    """Why this ring, in full sentences."""
+    aim, spring, above = choice.aim, choice.spring, choice.next
     yield (
-        f"Chosen for {_goal(choice)}: {choice.pair}, outer radius {case.outer_radius * 1e3:.4g} mm,"
-        f" {choice.spring.found.style} flexures; of {len(choice.allowed)} rings within the closed "
-        f"forms, {len(choice.considered)} searched for shapes, {len(choice.designs)} designed."
+        f"Chosen for {_goal(choice)}: {choice.pair}, outer radius "
+        f"{_shown(spring.case.outer_radius, 'm')}, {spring.found.style} flexures; of "
+        f"{len(choice.allowed)} rings within the closed forms {len(choice.considered)} were "
+        f"searched for shapes and {len(choice.designs)} springs designed."
     )
     if aim.objective == "margin":
         yield (
-            f"The limits in the checks are tightened by the margin of {aim.value(choice.level):.0%}: "
-            "stresses and yield divided, gaps and the tooth multiplied by it."
+            "The limits in the checks are tightened by the margin of "
+            f"{aim.value(choice.level):.0%}: stresses and yield divided by 1 + margin, gaps and "
+            "the camshaft's teeth multiplied."
         )
-    if choice.stop is not None:
-        yield f"{_next(choice)} it is stopped by: {_stop_words(choice.stop)}."
-    fences = list(_fences(choice))
+    if above is not None and above.stop is not None:
+        value = _shown(aim.value(above.level), _UNITS[aim.objective])
+        yield f"At {value} this ring is stopped by: {_stop_words(above.stop)}."
+    fences = "; ".join(_fences(choice))
     if fences:
-        yield f"What forbids the rings next to it: {'; '.join(fences)}."
-    share = choice.spring.law.inputs.deflection / bound_of(choice.spring)
+        yield f"The rings next to it are forbidden by closed forms, {fences}."
     if aim.objective == "deflection":
-        yield f"Closed forms would allow this ring {_shown(aim.value(choice.bound), 'rad')} ({share:.0%} of a full disk is reached)."
+        yield (
+            f"Closed forms allow this ring no more than {_shown(aim.value(choice.bound), 'rad')}, "
+            f"a full disk {_shown(bound_of(spring), 'rad')}; the search for shapes is local, so "
+            "what it finds is what can be reached at least."
+        )
 
 
 def _goal(choice: Choice) -> str:
-    aim, value = choice.aim, choice.aim.value(choice.level)
-    if aim.objective == "deflection":
-        return f"the largest deflection, {_shown(value, 'rad')}"
-    if aim.objective == "diameter":
-        return f"the least diameter, root radius {_shown(value, 'm')}"
-    if aim.objective == "margin":
-        return f"the largest margin, {value:.0%} to every limit that the choice can move"
-    return f"the least mass, ring {choice.spring.mass * 1e3:.4g} g"
-
-
-def _next(choice: Choice) -> str:
-    above = min(
-        d.level for d in choice.designs if d.pair == choice.pair and d.level > choice.level
-    )
-    value = choice.aim.value(above)
-    shown = f"{value:.0%}" if choice.aim.objective == "margin" else None
-    return f"At {shown or _shown(value, _UNITS[choice.aim.objective])}"
+    value = choice.aim.value(choice.level)
+    return {
+        "deflection": f"the largest deflection, {_shown(value, 'rad')}",
+        "diameter": f"the least diameter, root radius {_shown(value, 'm')}",
+        "margin": f"the largest margin, {value:.0%}",
+        "mass": f"the least mass of the ring, {choice.spring.mass * 1e3:.4g} g",
+    }[choice.aim.objective]
 
 
 def _stop_words(stop: Stop) -> str:
-    value, limit = _shown(stop.value, stop.unit), _shown(stop.limit, stop.unit)
-    return f"{stop.claim} ({value}; limit {limit})"
+    return f"{stop.claim} ({_shown(stop.value, stop.unit)}; limit {_shown(stop.limit, stop.unit)})"
 
 
 def _shown(value: float, unit: str) -> str:
-    scale, name = _SHOWN.get(unit, (1.0, "" if unit == "1" else unit))
-    return f"{value * scale:.4g} {name}".rstrip()
+    scale, name = _SHOWN.get(unit, (1.0, f" {unit}"))
+    return f"{value * scale:.4g}{name}"

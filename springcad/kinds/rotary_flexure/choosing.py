@@ -99,10 +99,10 @@ class Choice:
     designs: tuple[Design, ...]
 
     @property
-    def stop(self) -> Stop | None:
-        """The limit at the lowest level above the chosen one at which this ring was tried."""
+    def next(self) -> Design | None:
+        """The same ring at the lowest level above the chosen one at which it was tried."""
         above = [d for d in self.designs if d.pair == self.pair and d.level > self.level]
-        return min(above, key=lambda d: d.level).stop if above else None
+        return min(above, key=lambda design: design.level, default=None)
 
 
 def choose(spec: RotaryFlexureSpec, build: Build, progress: Progress) -> Choice:
@@ -120,13 +120,12 @@ def choose(spec: RotaryFlexureSpec, build: Build, progress: Progress) -> Choice:
     search = _Search(aim, build, progress)
     for ring in _order(aim, considered):
         search.climb(ring)
-    if search.best is None or search.best.spring is None:
-        raise _refusal(search.designs)
     best = search.best
-    bound = next(s.bound for s in considered if s.pair == best.pair)
-    return Choice(
-        aim, best.spring, best.pair, best.level, bound, allowed, considered, tuple(search.designs)
-    )
+    if best is None or best.spring is None:
+        raise _refusal(search.designs)
+    bound = next(ring.bound for ring in considered if ring.pair == best.pair)
+    designs = tuple(search.designs)
+    return Choice(aim, best.spring, best.pair, best.level, bound, allowed, considered, designs)
 
 
 def _order(aim: Aim, considered: tuple[Screened, ...]) -> list[Screened]:
@@ -230,8 +229,8 @@ class _Search:
     def _up(self, ring: Screened, spring: Spring) -> int:
         return max(1, math.floor(WARY * _spare_gap(spring) / ring.fall)) if ring.fall > 0.0 else 1
 
-    def _back(self, ring: Screened, stop: Stop) -> int:
-        if stop.lack is not None and ring.fall > 0.0:
+    def _back(self, ring: Screened, stop: Stop | None) -> int:
+        if stop is not None and stop.lack is not None and ring.fall > 0.0:
             return max(1, math.ceil(stop.lack / ring.fall))
         return max(1, round(CAUTION * ring.bound))
 
