@@ -36,15 +36,17 @@ from springcad.result import Check, Progress
 
 Build = Callable[[RotaryFlexureSpec, Case, tuple[Check, ...], Progress], Spring]
 
-FIRST = 6
+FIRST = 5
 """Rings screened before the search goes on around the best of them,"""
-AROUND = 10
+AROUND = 9
 """and at most so many around it."""
-DESIGNS = 8
+DESIGNS = 7
 """Springs designed at most."""
 COUNT_MOVES = (1.2, 1.08, 1.0 / 1.08)
 RADIUS_MOVES = (1.1, 1.03, 1.0 / 1.03)
 """Steps around the best ring, as factors."""
+LONGEST_STEP = 4
+"""Levels by which a design that passes is left behind at most: each time twice as many."""
 WARY = 0.7
 """Share of the gap that is left which the next level may take."""
 CAUTION = 0.02
@@ -214,7 +216,7 @@ class _Search:
             design = self._designed(pair, level)
             if design.spring is not None:
                 low, self.best = level, design
-                step = max(2 * step, self._up(ring, design.spring))
+                step = min(max(2 * step, self._up(ring, design.spring)), LONGEST_STEP)
                 level = min(low + step, max(low + 1, (low + high) // 2))
             elif low >= least:
                 high, level = level, (low + level) // 2

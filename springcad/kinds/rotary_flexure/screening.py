@@ -33,7 +33,7 @@ from springcad.mechanics.torque_law import TorqueLaw
 
 Floats = NDArray[np.float64]
 
-FIRST_FILL, FILL_STEP = 0.6, 0.05
+FIRST_FILL, FILL_STEP = 0.65, 0.05
 """Density factors at which shapes are searched for, each from the shape before."""
 FINEST = 0.02
 """Where no shape is found, steps of fill are halved down to this one."""
