@@ -59,14 +59,14 @@ def changed(old: str, new: str) -> str:
             "process: wire-edm",
             "process: wire-edm\nzzz: 1",
             "spec.yaml:15:1: zzz: unknown key; a spec takes springcad, kind, name, target, "
-            "envelope, flexures, material, stress, process, mounting, camshaft, optimiser, stack, "
-            "calibration, tolerance",
+            "envelope, flexures, material, stress, process, mounting, camshaft, optimiser, "
+            "stack, objective, calibration, tolerance",
         ),
         (
             "  root_radius: 31 mm\n",
             "",
             "spec.yaml:8:3: envelope.root_radius: missing: radius at which the flexures leave the "
-            "rim, in mm",
+            "rim, in mm; auto with objective: diameter",
         ),
         (
             "33.5 mm",
@@ -106,22 +106,26 @@ def changed(old: str, new: str) -> str:
             "-1 deg",
             "spec.yaml:6:15: target.deflection: must be from 0.01 deg to 60 deg, is -1 deg",
         ),
-        ("count: 24", "count: 2", "spec.yaml:12:19: flexures.count: must be at least 3, is 2"),
-        ("count: 24", "count: 999", "spec.yaml:12:19: flexures.count: must be at most 400, is 999"),
+        ("count: 24", "count: 2", "spec.yaml:12:19: flexures.count: must be from 3 to 400, is 2"),
+        (
+            "count: 24",
+            "count: 999",
+            "spec.yaml:12:19: flexures.count: must be from 3 to 400, is 999",
+        ),
         (
             "count: 24",
             "count: 24.0",
-            "spec.yaml:12:19: flexures.count: must be a whole number, is 24.0",
+            "spec.yaml:12:19: flexures.count: must be a whole number or auto",
         ),
         (
             "count: 24",
             "count: '24'",
-            "spec.yaml:12:19: flexures.count: must be a whole number, is '24'",
+            "spec.yaml:12:19: flexures.count: must be a whole number or auto",
         ),
         (
             "count: 24",
             "count: true",
-            "spec.yaml:12:19: flexures.count: must be a whole number, is True",
+            "spec.yaml:12:19: flexures.count: must be a whole number or auto",
         ),
         (
             "count: 24",
@@ -335,7 +339,7 @@ def test_overrides_are_judged_like_the_file_and_named_as_what_they_are(tmp_path:
         "--set:1:1: optimiser.starts: holds nothing",
         "--set:1:1: write key=value, as in flexures.count=24; got a..b=1",
         "--set:1:1: envelope.outer_radus: unknown key; did you mean outer_radius?",
-        "--set:1:1: flexures.count: must be a whole number, is 'two'",
+        "--set:1:1: flexures.count: must be a whole number or auto",
     ]
 
 

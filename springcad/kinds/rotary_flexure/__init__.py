@@ -33,12 +33,16 @@ __all__ = [
 
 def check_spec(spec: Spec) -> tuple[Check, ...]:
     """Closed-form checks of a spec of this kind, well under a second."""
+    from springcad.kinds.rotary_flexure.aim import Aim, is_open
+    from springcad.kinds.rotary_flexure.candidates import range_checks
     from springcad.kinds.rotary_flexure.feasibility import feasibility_checks
-    from springcad.kinds.rotary_flexure.inputs import case_of
-    from springcad.kinds.rotary_flexure.stack import named
+    from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec
+    from springcad.kinds.rotary_flexure.stack import named, stack_of
 
-    case = case_of(spec.model)
-    return named(feasibility_checks(case), case.stack)
+    model = rotary_spec(spec.model)
+    if is_open(model):
+        return range_checks(Aim.of(model))
+    return named(feasibility_checks(case_of(model)), stack_of(model))
 
 
 def design_spec(spec: Spec, progress: Progress) -> Result:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.pressure import PRESSURE_OVER_ULTIMATE
-from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.result import Check, check
+
+if TYPE_CHECKING:
+    from springcad.kinds.rotary_flexure.spring import Spring
 
 Floats = NDArray[np.float64]
 
@@ -120,11 +123,13 @@ def _flexures(spring: Spring) -> Iterator[Check]:
         "gap between flexures at rest", spring.found.gap, ">=", case.min_gap, "m",
         source="polygons of the flexures; smallest gap wanted",
     )  # fmt: skip
+    asked = spring.spec.flexures.min_deformed_gap
     for stroke in spring.strokes:
         yield check(
             f"gap between deformed flexures {_way(stroke.direction)}", float(stroke.gap.min()),
-            ">=", DEFORMED_GAP, "m", source="polygons of the deformed flexures; below 0 they touch",
-            otherwise="fail" if not stroke.gap.min() >= 0.0 else "warn",
+            ">=", asked or DEFORMED_GAP, "m",
+            source="polygons of the deformed flexures; below 0 they touch",
+            otherwise="fail" if asked or not stroke.gap.min() >= 0.0 else "warn",
             remedy="lower target.deflection, or raise flexures.min_gap",
         )  # fmt: skip
     yield check(

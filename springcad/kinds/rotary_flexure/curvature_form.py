@@ -37,10 +37,9 @@ from springcad.optimise.sqp import Evaluation, Solution, best, solve_from_many
 Floats = NDArray[np.float64]
 
 COEFFICIENTS = 13
-"""Free coefficients of the curvature spline; a last one is zero where the straight pad begins."""
+"""Free coefficients of the curvature spline where the caller wants no other number."""
 DEGREE = 3
 NODES_PER_PANEL = 6
-COEFFICIENT_RANGE = slice(0, COEFFICIENTS)
 POINTS = 121
 """Points along the curved part at which gap and bend are held to their limits."""
 BEND_MARGIN = 0.99
@@ -52,9 +51,12 @@ SMALLEST_TAPER = 1e-3
 """The law's sqrt(1 - x/L) is held above this while a search strays beyond the tip."""
 
 
-def curvature_knots() -> Floats:
-    """Clamped uniform knots on [0, 1] of the curvature spline."""
-    inner = np.linspace(0.0, 1.0, COEFFICIENTS + 2 - DEGREE)
+def curvature_knots(coefficients: int) -> Floats:
+    """Clamped uniform knots on [0, 1] of a curvature spline with so many free coefficients.
+
+    A last coefficient is zero, where the straight pad begins.
+    """
+    inner = np.linspace(0.0, 1.0, coefficients + 2 - DEGREE)
     return np.concatenate([np.zeros(DEGREE), inner, np.ones(DEGREE)])
 
 
@@ -71,9 +73,9 @@ class _Basis:
 
 
 @cache
-def _basis() -> _Basis:
-    spline = BSpline(curvature_knots(), np.eye(COEFFICIENTS + 1), DEGREE)
-    grid = panel_grid(np.linspace(0.0, 1.0, COEFFICIENTS + 2 - DEGREE), NODES_PER_PANEL)
+def _basis(coefficients: int) -> _Basis:
+    spline = BSpline(curvature_knots(coefficients), np.eye(coefficients + 1), DEGREE)
+    grid = panel_grid(np.linspace(0.0, 1.0, coefficients + 2 - DEGREE), NODES_PER_PANEL)
     angle = spline.antiderivative()
     points = np.linspace(0.0, 1.0, POINTS)
     return _Basis(
@@ -138,8 +140,15 @@ class CurvatureProblem:
     Calling it gives objective, constraints and exact gradients.
     """
 
-    def __init__(self, flexure: FlexureProblem, nearest: Floats | None = None) -> None:
+    def __init__(
+        self,
+        flexure: FlexureProblem,
+        nearest: Floats | None = None,
+        coefficients: int = COEFFICIENTS,
+    ) -> None:
         self.nearest = nearest
+        self.basis = _basis(coefficients)
+        self.coefficients = slice(0, coefficients)
         unit = flexure.root_half_thickness
         self.flexure = flexure
         self.span = flexure.span / unit
@@ -149,14 +158,14 @@ class CurvatureProblem:
         self.pad_energy = pad_energy(flexure) / unit
         self.energy = flexure.serpentine_factor * 2.0 / 3.0 * self.lever
         self.zones = zone_index(POINTS, ZONES)
-        self.factor = flexure.factor(_basis().grid.nodes)
+        self.factor = flexure.factor(self.basis.grid.nodes)
         self.factor_at_points = flexure.factor(np.linspace(0.0, 1.0, POINTS))
         self.allowance = flexure.allowance((np.arange(ZONES) + 0.5) / ZONES) / unit
 
     @property
     def bounds(self) -> tuple[Floats, Floats]:
         """Lower and upper bounds of the variables."""
-        upper = np.full(COEFFICIENTS + 3, 8.0 * self.flexure.bend_limit)
+        upper = np.full(self.coefficients.stop + 3, 8.0 * self.flexure.bend_limit)
         lower = -upper
         lower[-3:] = 0.9, -self.flexure.max_root_angle, -2.0
         upper[-3:] = 4.0, self.flexure.max_root_angle, self.root_radius
@@ -165,7 +174,7 @@ class CurvatureProblem:
     def __call__(self, variables: Floats) -> Evaluation:
         """Values and gradients at ``variables`` (V,)."""
         line = self._line(variables)
-        basis, gap = _basis(), dual.variable(variables, -1)
+        basis, gap = self.basis, dual.variable(variables, -1)
         section = self._section(line.x, line.bend, self.factor)
         z = section.half_thickness * line.bend
         smooth = line.length * (z * z).mapped(basis.grid.weights[None, :])
@@ -175,7 +184,7 @@ class CurvatureProblem:
         equalities = self._equalities(line, section)
 
         x, y = line.x.mapped(basis.at_points), line.y.mapped(basis.at_points)
-        bend = dual.linear(basis.curvature_at_points, variables, COEFFICIENT_RANGE)
+        bend = dual.linear(basis.curvature_at_points, variables, self.coefficients)
         half = self._section(x, bend, self.factor_at_points).half_thickness
         gaps = gap_rows(x, y, half, self.root_radius, self.flexure.count, self.zones)
         bends = bend_rows(half * bend, BEND_MARGIN * self.flexure.bend_limit, self.zones)
@@ -190,7 +199,7 @@ class CurvatureProblem:
         )
 
     def _line(self, variables: Floats) -> _Line:
-        basis, coefficients = _basis(), COEFFICIENT_RANGE
+        basis, coefficients = self.basis, self.coefficients
         length = self.span * dual.variable(variables, -3)
         root_angle = dual.variable(variables, -2)
         angle = root_angle + length * dual.linear(basis.angle, variables, coefficients)
@@ -215,7 +224,7 @@ class CurvatureProblem:
 
     def _equalities(self, line: _Line, section: _Section) -> Dual:
         """Stored energy, cross compliance and closure onto the pad, each of order one."""
-        weights = _basis().grid.weights[None, :]
+        weights = self.basis.grid.weights[None, :]
         energy = line.length * section.energy.mapped(weights) + (self.pad_energy - self.energy)
         balance = line.length * (line.y * section.cross_compliance).mapped(weights)
         end_x = line.length * dual.cos(line.angle).mapped(weights) - (self.span - self.pad)
@@ -231,7 +240,7 @@ def start_point(problem: CurvatureProblem, seed: int, index: int) -> Floats:
     slope at the root, all with random strength; bisection on the amplitude puts the search on the
     energy constraint from the beginning.
     """
-    basis, draw = _basis(), uniform(seed, index, 4)
+    basis, draw = problem.basis, uniform(seed, index, 4)
     sigma, weights = basis.grid.nodes, basis.grid.weights
     half_waves = 2.0 + np.floor(3.0 * draw[0])
     shape = np.sin(np.pi * half_waves * sigma) * (1.0 if draw[1] < 0.5 else -1.0)
@@ -292,6 +301,7 @@ def optimise(
     *,
     starts: int,
     seed: int,
+    coefficients: int = COEFFICIENTS,
     progress: Callable[[str], None] = lambda _: None,
 ) -> CurvatureOptimum | None:
     """Search from ``starts`` random waves; None when no search met the constraints.
@@ -299,7 +309,7 @@ def optimise(
     Variables are snapped to a grid far below any tolerance, so that the last digits of the linear
     algebra of another machine do not show.
     """
-    problem = CurvatureProblem(flexure)
+    problem = CurvatureProblem(flexure, coefficients=coefficients)
     solutions = solve_from_many(
         problem,
         [start_point(problem, seed, index) for index in range(starts)],
@@ -329,7 +339,7 @@ def reoptimise(
             [earlier.length / flexure.span, earlier.root_angle, earlier.gap / unit],
         ]
     )
-    problem = CurvatureProblem(flexure, start if freeze else None)
+    problem = CurvatureProblem(flexure, start if freeze else None, len(start) - 3)
     (solution,) = solve_from_many(problem, [start], problem.bounds)
     if solution.violation > FEASIBLE or solution.variables[-1] <= 0.0:
         return None
@@ -341,7 +351,7 @@ def _optimum(flexure: FlexureProblem, solution: Solution) -> CurvatureOptimum:
     unit, variables = flexure.root_half_thickness, solution.variables
     # A shape and its mirror image are equally good; rounding must not choose between them.
     mirror = 1.0 if variables[0] >= 0.0 else -1.0
-    free = np.round(mirror * variables[:COEFFICIENTS] / unit, 6)
+    free = np.round(mirror * variables[:-3] / unit, 6)
     return CurvatureOptimum(
         coefficients=np.append(free, 0.0),
         length=round(float(variables[-3]) * flexure.span, 9),

@@ -6,8 +6,11 @@ from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Profile
 from springcad.geometry.outline_ops import profile_area, profile_faults
 from springcad.geometry.ribbon import Ribbon
+from springcad.kinds.rotary_flexure.aim import is_open
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
 from springcad.kinds.rotary_flexure.checks import spring_checks
+from springcad.kinds.rotary_flexure.choice_report import with_choice
+from springcad.kinds.rotary_flexure.choosing import Choice, choose
 from springcad.kinds.rotary_flexure.feasibility import (
     Case,
     failures,
@@ -38,16 +41,29 @@ from springcad.spec.source import Spec
 
 
 def design_spring(spec: Spec, progress: Progress) -> Result:
-    """Design ring and camshaft and say what they do.
+    """Design ring and camshaft and say what they do; what is left open is chosen first.
 
     Raises:
         InfeasibleError: no part can meet the spec.
     """
-    model = rotary_spec(spec.model)
+    spring, choice = decide(rotary_spec(spec.model), progress)
+    result = summarise(spec, spring)
+    return result if choice is None else with_choice(result, choice)
+
+
+def decide(spec: RotaryFlexureSpec, progress: Progress) -> tuple[Spring, Choice | None]:
+    """The spring, and how it was chosen where the spec leaves something open.
+
+    Raises:
+        InfeasibleError: no part can meet the spec.
+    """
     try:
-        return summarise(spec, build_spring(model, progress))
+        if not is_open(spec):
+            return build_spring(spec, progress), None
+        choice = choose(spec, spring_of, progress)
+        return choice.spring, choice
     except InfeasibleError as error:
-        raise of_sheet(error, stack_of(model)) from error
+        raise of_sheet(error, stack_of(spec)) from error
 
 
 def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
@@ -59,7 +75,7 @@ def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
     case = case_of(spec).shifted
     feasibility = require_feasible(case)
     try:
-        return _spring(spec, case, feasibility, progress)
+        return spring_of(spec, case, feasibility, progress)
     except InfeasibleError as error:
         progress("no part can be made: trying what would help")
         bends = resolved_style(design_law(case.inputs), case.style) == "serpentine"
@@ -75,15 +91,16 @@ def _is_possible(spec: RotaryFlexureSpec) -> bool:
 def _passes(spec: RotaryFlexureSpec) -> bool:
     """Whether the spec can be designed and every check of the spring holds."""
     try:
-        spring = _spring(spec, case_of(spec).shifted, (), lambda _: None)
+        spring = spring_of(spec, case_of(spec).shifted, (), lambda _: None)
     except InfeasibleError:
         return False
     return all(claim.status != "fail" for claim in spring_checks(spring))
 
 
-def _spring(
+def spring_of(
     spec: RotaryFlexureSpec, case: Case, feasibility: tuple[Check, ...], progress: Progress
 ) -> Spring:
+    """The spring of a case that is feasible; InfeasibleError where no part is found."""
     law, target = design_law(case.inputs), target_of(spec)
     sized = size_flexure(spec, case, law, target, progress)
     ribbon = sized.found.ribbon

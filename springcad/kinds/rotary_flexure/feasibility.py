@@ -74,6 +74,7 @@ class Case:
         backlash: tangential play of a tip in its slot of the camshaft.
         min_slot: narrowest slot with a round bottom that the process cuts.
         least_gap: narrowest gap that the process cuts; ``min_gap`` may not be below it.
+        min_tooth: least width of a tooth of the camshaft between two tips; at least ``min_web``.
         law: what a torque law asks for that is not linear.
         stack: the sheets of the joint, all alike; those on one camshaft twist it together.
     """
@@ -89,6 +90,7 @@ class Case:
     backlash: float = 0.0
     min_slot: float = 0.0
     least_gap: float = 0.0
+    min_tooth: float = 0.0
     law: LawDemand | None = None
     stack: Stack = SINGLE
 
@@ -249,8 +251,9 @@ def _neighbours(case: Case, law: DesignLaw) -> tuple[Check, ...]:
     known = math.isfinite(law.straight_thickness_factor)
     gap = straight_gap(law) if straight and known else law.pinch_gap
     return (
-        check("cam tooth between two tips", law.tooth_width, ">=", case.min_web, "m",
-              source="2 pi r / n - tip thickness; thinnest web of the process"),
+        check("cam tooth between two tips", law.tooth_width, ">=",
+              max(case.min_tooth, case.min_web), "m",
+              source="2 pi r / n - tip thickness; least tooth wanted, thinnest web"),
         check("gap between neighbours near the tips", gap, ">=", case.min_gap, "m",
               source="pinch between tapered neighbours; the smallest gap wanted"),
     )  # fmt: skip

@@ -24,15 +24,25 @@ def rotary_spec(model: CommonSpec) -> RotaryFlexureSpec:
     return calibrated(model)
 
 
+def number(value: float | str) -> float:
+    """A number of the spec that may also be left open; ValueError while it is."""
+    if isinstance(value, str):
+        raise ValueError(f"not chosen yet: {value}")
+    return value
+
+
 def case_of(model: CommonSpec) -> Case:
-    """The case that the closed forms judge, of one sheet of the joint, SI."""
+    """The case that the closed forms judge, of one sheet of the joint, SI.
+
+    ValueError while something is to be chosen.
+    """
     spec = rotary_spec(model)
     material, rules = spec.material.values, spec.process.rules
     dowels, target = spec.mounting.dowels, spec.target
     law, stack = None, stack_of(spec)
     if target.stiffness is not None:
         stiffness = target.stiffness * stack.stiffness_share
-        deflection = target.deflection / stack.series
+        deflection = number(target.deflection) / stack.series
     else:
         torque, energy, at_rest = full_load_of(spec)
         stiffness, deflection = torque**2 / (2.0 * energy), 2.0 * energy / torque
@@ -41,16 +51,16 @@ def case_of(model: CommonSpec) -> Case:
         inputs=LawInputs(
             stiffness=stiffness,
             deflection=deflection,
-            root_radius=spec.envelope.root_radius,
-            contact_radius=spec.envelope.contact_radius,
-            count=spec.flexures.count,
+            root_radius=number(spec.envelope.root_radius),
+            contact_radius=number(spec.envelope.contact_radius),
+            count=int(number(spec.flexures.count)),
             thickness=stack.sheet,
             elastic_modulus=material.elastic_modulus.value,
             design_stress=spec.material.design_stress,
             tip_half_thickness=0.5 * spec.flexures.tip_thickness,
         ),
         style=spec.flexures.style,
-        outer_radius=spec.envelope.outer_radius,
+        outer_radius=number(spec.envelope.outer_radius),
         yield_strength=material.yield_strength.value,
         min_web=rules.min_web,
         min_gap=spec.flexures.min_gap if spec.flexures.min_gap is not None else rules.min_gap,
@@ -58,6 +68,7 @@ def case_of(model: CommonSpec) -> Case:
         camshaft_bore_radius=spec.camshaft.bore_radius or 0.0,
         backlash=spec.camshaft.backlash,
         least_gap=rules.min_gap,
+        min_tooth=spec.camshaft.min_tooth or rules.min_web,
         min_slot=max(rules.min_gap, 2.0 * rules.min_inside_radius),
         law=law,
         stack=stack,
@@ -83,9 +94,9 @@ def joint_target_of(spec: RotaryFlexureSpec) -> Law:
     from springcad.kinds.given_law import rise_of
     from springcad.kinds.target_law import law_of, polynomial
 
-    target = spec.target
+    target, deflection = spec.target, number(spec.target.deflection)
     if target.law is not None:
-        return law_of(rise_of(target.law, target.deflection), target.deflection)
+        return law_of(rise_of(target.law, deflection), deflection)
     if target.stiffness is not None:
-        return law_of(polynomial((target.stiffness,), target.deflection), target.deflection)
+        return law_of(polynomial((target.stiffness,), deflection), deflection)
     raise ValueError("a valid spec has a stiffness or a law")

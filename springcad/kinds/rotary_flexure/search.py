@@ -71,7 +71,13 @@ def find_shape(spec: RotaryFlexureSpec, case: Case, law: DesignLaw, progress: Pr
             progress=progress,
         )
     else:
-        line = optimise(problem, starts=settings.starts, seed=settings.seed, progress=progress)
+        line = optimise(
+            problem,
+            starts=settings.starts,
+            seed=settings.seed,
+            coefficients=settings.coefficients,
+            progress=progress,
+        )
     return _serpentine(spec, problem, line)
 
 

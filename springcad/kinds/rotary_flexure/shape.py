@@ -47,8 +47,9 @@ def straight_ribbon(flexure: FlexureProblem) -> Ribbon:
 
 def curvature_ribbon(flexure: FlexureProblem, optimum: CurvatureOptimum) -> Ribbon:
     """The flexure of an optimised curvature spline and its pad."""
-    spline = BSpline(curvature_knots() * optimum.length, optimum.coefficients, DEGREE)
-    knots = np.unique(curvature_knots()) * optimum.length
+    clamped = curvature_knots(len(optimum.coefficients) - 1) * optimum.length
+    spline = BSpline(clamped, optimum.coefficients, DEGREE)
+    knots = np.unique(clamped)
     if flexure.local_stress:  # What a bend is thickened by falls fast where it changes its side.
         knots = np.sort(np.append(knots, 0.5 * (knots[1:] + knots[:-1])))
     tail = graded_towards_tip(optimum.length, flexure.lever - flexure.span + flexure.pad_length)

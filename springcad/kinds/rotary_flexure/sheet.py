@@ -6,9 +6,11 @@ from collections.abc import Iterator
 
 from springcad.errors import InfeasibleError
 from springcad.kinds.law_sheet import law_steps
-from springcad.kinds.rotary_flexure.design import build_spring
+from springcad.kinds.rotary_flexure.aim import Aim, is_open
+from springcad.kinds.rotary_flexure.candidates import range_checks
+from springcad.kinds.rotary_flexure.design import decide
 from springcad.kinds.rotary_flexure.feasibility import Case, feasibility_checks
-from springcad.kinds.rotary_flexure.inputs import case_of, joint_target_of, rotary_spec
+from springcad.kinds.rotary_flexure.inputs import case_of, joint_target_of, number, rotary_spec
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.sheet_law import law_section, room_section
 from springcad.kinds.rotary_flexure.sheet_spring import (
@@ -29,8 +31,11 @@ def explain_spring(spec: Spec, progress: Progress) -> Sheet:
     """The sheet of the design; of a refused one as far as closed forms go, with the refusal."""
     model = rotary_spec(spec.model)
     try:
-        spring = build_spring(model, progress)
+        spring, _ = decide(model, progress)
     except InfeasibleError as refusal:
+        if is_open(model):
+            material = material_section(model.material)
+            return Sheet(spec.kind, spec.name, (material,), range_checks(Aim.of(model)), refusal)
         case = case_of(model)
         sections = _closed(model, case.shifted)
         return Sheet(spec.kind, spec.name, sections, feasibility_checks(case), refusal)
@@ -64,20 +69,24 @@ def _given(spec: RotaryFlexureSpec, case: Case) -> Iterator[Step]:
         yield given("m_s", "springs one behind the other", stack.series, "1")
     if target.stiffness is not None and stack.sheets > 1:
         yield given("k_j", "stiffness of the whole joint", target.stiffness, "N*m/rad")
-        yield given("theta_j", "deflection of the joint, each way", target.deflection, "rad")
+        yield _told(target.deflection, "theta_j", "deflection of the joint, each way",
+                    inputs.deflection * stack.series, "rad")  # fmt: skip
         yield derived("k", "stiffness of one sheet", "k_j*m_s/p_s", inputs.stiffness, "N*m/rad",
                       page)  # fmt: skip
         yield derived("theta", "deflection of one sheet, each way", "theta_j/m_s",
                       inputs.deflection, "rad", page)  # fmt: skip
     elif target.stiffness is not None:
         yield given("k", "stiffness of the spring", inputs.stiffness, "N*m/rad")
-        yield given("theta", "deflection, each way", inputs.deflection, "rad")
+        yield _told(target.deflection, "theta", "deflection, each way", inputs.deflection, "rad")
     else:
         yield from _law(spec, case)
-    yield given("R", "radius at which the flexures leave the rim", inputs.root_radius, "m")
-    yield given("r_0", "radius of the contact at rest", inputs.contact_radius, "m")
-    yield given("R_o", "outer radius of the ring", case.outer_radius, "m")
-    yield given("n", "flexures", inputs.count, "1")
+    envelope = spec.envelope
+    yield _told(envelope.root_radius, "R", "radius at which the flexures leave the rim",
+                inputs.root_radius, "m")  # fmt: skip
+    yield _told(envelope.contact_radius, "r_0", "radius of the contact at rest",
+                inputs.contact_radius, "m")  # fmt: skip
+    yield _told(envelope.outer_radius, "R_o", "outer radius of the ring", case.outer_radius, "m")
+    yield _told(spec.flexures.count, "n", "flexures", inputs.count, "1")
     yield given("t", "thickness of the sheet", inputs.thickness, "m")
     yield given("h_t", "thickness at the tip", 2.0 * inputs.tip_half_thickness, "m")
     yield given("g_min", "smallest gap between neighbours", case.min_gap, "m",
@@ -89,11 +98,18 @@ def _given(spec: RotaryFlexureSpec, case: Case) -> Iterator[Step]:
                     "theory/rotary-flexure.md, 10")  # fmt: skip
 
 
+def _told(typed: float | str, symbol: str, meaning: str, value: float, unit: str) -> Step:
+    """A number of the spec, or the one chosen where the spec leaves it open."""
+    if isinstance(typed, str):
+        return found(symbol, meaning, value, unit, "theory/choose-for-me.md", "chosen")
+    return given(symbol, meaning, value, unit)
+
+
 def _law(spec: RotaryFlexureSpec, case: Case) -> Iterator[Step]:
     """The linear spring with torque and energy of the law at full load."""
     page, law = "theory/rotary-flexure.md, 10", spec.target.law
     assert law is not None, "a valid spec has a stiffness or a law"
-    yield given("theta_w", "deflection, each way", spec.target.deflection, "rad")
+    yield given("theta_w", "deflection, each way", number(spec.target.deflection), "rad")
     yield from law_steps(law, joint_target_of(spec), "theta_w")
     stack = case.stack
     share, turn = ("*m_s/p_s", "/m_s") if stack.sheets > 1 else ("", "")

@@ -18,15 +18,18 @@ from springcad.kinds.rotary_flexure.calibration_spec import (
     one_friction,
     same_material,
 )
+from springcad.kinds.rotary_flexure.objective_rules import OBJECTIVE_RULES
 from springcad.kinds.rotary_flexure.stack_spec import STACK_RULES, StackSection
 from springcad.kinds.rotary_flexure.tolerance_spec import TOLERANCE_RULES, Tolerance
 from springcad.spec.common import (
     AutoLength,
     CommonSpec,
+    Count,
     Length,
     LengthOrZero,
     ProcessEntry,
     ProcessSpec,
+    Quantity,
     Stress,
     TorsionalStiffness,
     angle,
@@ -36,7 +39,7 @@ from springcad.spec.common import (
 from springcad.spec.material import MaterialSpec
 from springcad.spec.points import Points
 from springcad.spec.rules import Rule, Section, rule
-from springcad.spec.units import LENGTH, show
+from springcad.spec.units import ANGLE, LENGTH, show
 
 TEMPLATE = files(__package__).joinpath("template.yaml").read_text(encoding="utf-8")
 
@@ -48,19 +51,21 @@ class Target(Section):
     """Constant torsional stiffness of the whole joint, in N*m/rad or N*m/deg; or a law."""
     law: Law | None = None
     """Torque of the whole joint over the angle, in place of a constant stiffness."""
-    deflection: Annotated[float, angle("0.01 deg", "60 deg")]
-    """Largest deflection in normal use, one way from rest, in deg."""
+    deflection: Annotated[
+        float | Literal["max"], Quantity(ANGLE, "0.01 deg", "60 deg", words=("max",))
+    ]
+    """Largest deflection in normal use, one way from rest, in deg; max: the largest there is."""
 
 
 class Envelope(Section):
     """The space that the spring may take."""
 
-    outer_radius: Length
-    """Outer radius of the rim, in mm."""
-    root_radius: Length
-    """Radius at which the flexures leave the rim, in mm."""
-    contact_radius: Length
-    """Radius at which the flexure tips touch the camshaft at rest, in mm."""
+    outer_radius: AutoLength
+    """Outer radius of the rim, in mm; auto: the thinnest rim that bears the flexures by itself."""
+    root_radius: AutoLength
+    """Radius at which the flexures leave the rim, in mm; auto with objective: diameter."""
+    contact_radius: AutoLength
+    """Radius at which the flexure tips touch the camshaft at rest, in mm; auto: see objective."""
     thickness: Length | None = None
     """Thickness of the sheet, in mm; with a stack, of the sheets of one spring together."""
 
@@ -68,8 +73,8 @@ class Envelope(Section):
 class Flexures(Section):
     """The flexures between rim and camshaft."""
 
-    count: Annotated[int, Field(ge=3, le=400)]
-    """Number of flexures."""
+    count: Annotated[int | Literal["auto"], Count(3, 400, words=("auto",))]
+    """Number of flexures; auto: see objective."""
     style: Literal["auto", "straight", "serpentine"] = "auto"
     """Shape; auto takes straight flexures where they meet the target, else serpentine ones."""
     tip_thickness: Length = default("0.35 mm")
@@ -84,6 +89,8 @@ class Flexures(Section):
     """Largest stress in the root fillets, in MPa; thicker roots keep it. No limit if not given."""
     min_gap: Length | None = None
     """Least gap between neighbouring flexures at rest, in mm; the process's if not given."""
+    min_deformed_gap: Length | None = None
+    """The same at every angle of the stroke, in mm; a warning below 0.05 mm if not given."""
 
 
 class Dowels(Section):
@@ -119,6 +126,11 @@ class Camshaft(Section):
     """Radius of a hole through the centre, in mm; no hole if not given."""
     friction: Annotated[float, Field(ge=0.0, le=0.6)] = 0.0
     """Coefficient of dry friction between tips and camshaft, for the hysteresis; a bare number."""
+    min_tooth: Length | None = None
+    """Least width of a tooth between two tips, in mm; the process's thinnest web if not given."""
+
+
+Objective = Literal["deflection", "mass", "diameter", "margin"]
 
 
 class Optimiser(Section):
@@ -130,6 +142,8 @@ class Optimiser(Section):
     """Number of starting points."""
     seed: Annotated[int, Field(ge=0, le=2**32 - 1)] = 1
     """Seed of the starting points."""
+    coefficients: Annotated[int, Field(ge=8, le=24)] = 13
+    """Unknowns of the curvature; more fill a dense ring better and cost time."""
     control_points: Annotated[int, Field(ge=2, le=4)] = 2
     """Number of control points; for form control-points only."""
     weighting: Literal["gap", "sharpness"] = "gap"
@@ -144,17 +158,19 @@ def _stiffness_or_law(target: Target) -> str | None:
 
 
 @rule("target.law.table", "target.deflection")
-def _torque_table_reaches(points: Points | None, deflection: float) -> str | None:
-    return reaches(points, deflection)
+def _torque_table_reaches(points: Points | None, deflection: float | str) -> str | None:
+    return None if isinstance(deflection, str) else reaches(points, deflection)
 
 
 @rule("target.law.stiffness.table", "target.deflection")
-def _stiffness_table_reaches(points: Points | None, deflection: float) -> str | None:
-    return reaches(points, deflection)
+def _stiffness_table_reaches(points: Points | None, deflection: float | str) -> str | None:
+    return None if isinstance(deflection, str) else reaches(points, deflection)
 
 
 @rule("envelope.root_radius", "envelope.outer_radius", "process")
-def _rim(root: float, outer: float, process: ProcessSpec) -> str | None:
+def _rim(root: float | str, outer: float | str, process: ProcessSpec) -> str | None:
+    if isinstance(root, str) or isinstance(outer, str):
+        return None
     if root >= outer:
         return f"must be less than outer_radius, {show(outer, LENGTH)}"
     return below_process(
@@ -163,13 +179,15 @@ def _rim(root: float, outer: float, process: ProcessSpec) -> str | None:
 
 
 @rule("envelope.contact_radius", "envelope.root_radius")
-def _flexure_length(contact: float, root: float) -> str | None:
+def _flexure_length(contact: float | str, root: float | str) -> str | None:
+    if isinstance(contact, str) or isinstance(root, str):
+        return None
     return None if contact < root else f"must be less than root_radius, {show(root, LENGTH)}"
 
 
 @rule("camshaft.bore_radius", "envelope.contact_radius")
-def _bore(bore: float | None, contact: float) -> str | None:
-    if bore is None or bore < contact:
+def _bore(bore: float | None, contact: float | str) -> str | None:
+    if bore is None or isinstance(contact, str) or bore < contact:
         return None
     return f"must be less than contact_radius, {show(contact, LENGTH)}"
 
@@ -192,18 +210,25 @@ def _fillet(fillet: float | str, process: ProcessSpec) -> str | None:
 
 
 @rule("mounting.dowels.radius", "envelope.root_radius", "envelope.outer_radius", "process")
-def _dowel_depth(radius: float, root: float, outer: float, process: ProcessSpec) -> str | None:
-    if root >= outer:
+def _dowel_depth(
+    radius: float, root: float | str, outer: float | str, process: ProcessSpec
+) -> str | None:
+    if isinstance(root, str) or isinstance(outer, str) or root >= outer:
         return None
     web = outer - root - radius
     return below_process("a web between dowel and root radius", web, process.rules.min_web, process)
 
 
 @rule("mounting.dowels.count", "mounting.dowels.radius", "envelope.outer_radius")
-def _dowel_pitch(count: int, radius: float, outer: float) -> str | None:
-    if radius < outer * math.sin(math.pi / count):
+def _dowel_pitch(count: int, radius: float, outer: float | str) -> str | None:
+    if isinstance(outer, str) or radius < outer * math.sin(math.pi / count):
         return None
     return f"{count} dowels of radius {show(radius, LENGTH)} overlap on the outer edge"
+
+
+@rule("camshaft.min_tooth", "process")
+def _tooth(tooth: float | None, process: ProcessSpec) -> str | None:
+    return None if tooth is None else below_process("a web", tooth, process.rules.min_web, process)
 
 
 @rule("stress", "optimiser")
@@ -221,6 +246,13 @@ def _control_points(_: int, optimiser: Optimiser) -> str | None:
 @rule("optimiser.weighting", "optimiser")
 def _weighting(_: str, optimiser: Optimiser) -> str | None:
     return _only_control_points("weighting", optimiser)
+
+
+@rule("optimiser.coefficients", "optimiser")
+def _coefficients(_: int, optimiser: Optimiser) -> str | None:
+    if optimiser.form == "curvature" or "coefficients" not in optimiser.model_fields_set:
+        return None
+    return "has a meaning with form: curvature only"
 
 
 def _only_control_points(key: str, optimiser: Optimiser) -> str | None:
@@ -248,6 +280,9 @@ class RotaryFlexureSpec(CommonSpec):
         _local_stress,
         _control_points,
         _weighting,
+        _coefficients,
+        _tooth,
+        *OBJECTIVE_RULES,
         same_material,
         one_friction,
         *STACK_RULES,
@@ -279,6 +314,10 @@ class RotaryFlexureSpec(CommonSpec):
     """How the serpentine centre line is searched for."""
     stack: StackSection = Field(default_factory=StackSection)
     """Sheets in parallel and springs in series, as one joint."""
+    objective: Objective | None = None
+    """What auto values are chosen for: the largest deflection (with target.deflection: max), the
+    least mass or diameter, or the largest margin to all limits; if not given, deflection where that
+    is max, else margin where count or contact radius is auto, else mass."""
     calibration: CalibrationEntry = None
     """What a bench test of an earlier design has told: a file of springcad calibrate."""
     tolerance: Tolerance | None = None
