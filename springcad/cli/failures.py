@@ -54,9 +54,9 @@ def failure_data(error: Exception) -> dict[str, Any]:
 
 def _reason(error: Exception) -> str:
     if isinstance(error, InfeasibleError):
-        from springcad.report.display import format_value
+        from springcad.report.display import format_apart
 
-        value, limit = (format_value(x, error.unit) for x in (error.value, error.limit))
+        value, limit = format_apart(error.value, error.limit, error.unit)
         lines = [f"no feasible design: {error.claim}: {value}, limit {limit}"]
         return "\n".join(lines + [f"  to make it feasible: {remedy}" for remedy in error.remedies])
     return str(error) if isinstance(error, SpringcadError) else bug_text(error)

@@ -80,19 +80,22 @@ def format_value(value: float, unit: str, digits: int = DIGITS) -> str:
 
 def format_check(check: Check) -> tuple[str, str]:
     """Value and limit of a check; more digits where a broken limit would look like a kept one."""
-    scale, _ = display_unit(check.unit)
+    if check.status != "pass":
+        return format_apart(check.value, check.limit, check.unit)
+    return format_value(check.value, check.unit), format_value(check.limit, check.unit)
+
+
+def format_apart(value: float, limit: float, unit: str) -> tuple[str, str]:
+    """Two SI numbers with so many digits that they do not look alike, unless they are."""
+    scale, _ = display_unit(unit)
     digits = DIGITS
     while (
-        check.status != "pass"
-        and check.value != check.limit
+        value != limit
         and digits < _MOST_DIGITS
-        and _rounded(check.value * scale, digits) == _rounded(check.limit * scale, digits)
+        and _rounded(value * scale, digits) == _rounded(limit * scale, digits)
     ):
         digits += 1
-    return (
-        format_value(check.value, check.unit, digits),
-        format_value(check.limit, check.unit, digits),
-    )
+    return format_value(value, unit, digits), format_value(limit, unit, digits)
 
 
 def _rounded(value: float, digits: int) -> float:

@@ -10,6 +10,7 @@ import pytest
 from report_example import example_result
 
 from springcad.report.display import (
+    format_apart,
     format_check,
     format_deviation,
     format_number,
@@ -70,6 +71,11 @@ def test_a_broken_limit_never_looks_like_a_kept_one():
     assert format_check(over) == ("912.0004 MPa", "912.0000 MPa")
     barely = check("strain factor", 1.00004, "<=", 1, "1", source="law")
     assert format_check(barely) == ("1.00004", "1")
+
+
+def test_what_falls_short_of_a_limit_does_not_look_like_it():
+    assert format_apart(0.012210, 0.012212, "J") == ("0.012210 J", "0.012212 J")
+    assert format_apart(2.0, 2.0, "J") == ("2.000 J", "2.000 J")
 
 
 def test_a_limit_kept_to_the_last_digit_is_shown_without_noise():

@@ -37,3 +37,37 @@ def test_the_backlash_that_a_stiffening_law_asks_for_is_enough() -> None:
     loose = spring_of("rotary-stiffening")
     assert loose.camshaft_inputs.backlash == pytest.approx(1e-3 * float(by))
     assert {claim.name: claim.status for claim in spring_checks(loose)}[INTERFERENCE] == "pass"
+
+
+def test_the_fillet_stress_that_the_warning_names_ends_the_warning() -> None:
+    """The fillets of S2 bear more than yield; bounded to what the remedy says they do not."""
+    name = "root fillet stress against yield"
+    plain = {claim.name: claim for claim in spring_checks(spring_of("S2"))}[name]
+    assert plain.status == "warn"
+    (stress,) = re.findall(r"flexures.fillet_stress: ([\d.]+ MPa)", plain.remedy)
+    bounded = spring_of("S2", f"flexures.fillet_stress={stress}")
+    assert {claim.name: claim.status for claim in spring_checks(bounded)}[name] == "pass"
+
+
+def test_a_little_less_stress_in_the_fillets_costs_a_little_gap() -> None:
+    """A search that stops short of its constraints goes on; else 1300 MPa has no design at all."""
+    gaps = [
+        spring_of("S2", f"flexures.fillet_stress={stress} MPa").found.gap for stress in (1310, 1300)
+    ]
+    assert gaps[1] == pytest.approx(gaps[0], abs=0.02e-3)
+
+
+def test_every_warning_of_the_papers_form_names_what_ends_it() -> None:
+    """The form of the paper balances the flexure by its mean; the other one does it exactly."""
+    warned = {
+        c.name: c.remedy for c in spring_checks(spring_of("rotary-full")) if c.status != "pass"
+    }
+    assert all(warned.values())
+    balance = next(name for name in warned if name.startswith("lateral balance"))
+    assert "optimiser.form to curvature" in warned[balance]
+    exact = spring_of("rotary-full", "optimiser={form: curvature}")
+    assert {c.name: c.status for c in spring_checks(exact)}[balance] == "pass"
+    (bend,) = re.findall(r"bend_limit below ([\d.]+)", warned["inner-fibre stress against yield"])
+    assert float(bend) == pytest.approx(
+        spring_of("rotary-full").found.ribbon.largest_bend, rel=0.02
+    )

@@ -89,7 +89,8 @@ def _stress(spring: Spring) -> Iterator[Check]:
         "inner-fibre stress against yield", local, "<=", yielding, "Pa",
         source=f"{beam}, curved-beam factor; material data",
         otherwise="warn" if spring.spec.stress == "nominal" else "fail",
-        remedy="lower flexures.bend_limit or material.design_stress",
+        remedy=f"lower flexures.bend_limit below {spring.found.ribbon.largest_bend:.2g}, which it "
+        "is here, or lower material.design_stress",
     )  # fmt: skip
     yield from _fillet_stress(spring)
 
@@ -108,7 +109,7 @@ def _fillet_stress(spring: Spring) -> Iterator[Check]:
         "root fillet stress against yield", stress, "<=", yielding, "Pa",
         source=f"{source}; material", otherwise="warn",
         remedy=f"this part reaches it at {_fillet_yields(spring):.1f} deg; "
-        f"flexures.fillet_stress: {yielding / 1e6:g} MPa makes the roots thicker, which takes gap",
+        f"flexures.fillet_stress: {yielding / 1e6:g} MPa makes the roots thicker, if there is room",
     )  # fmt: skip
 
 
@@ -139,7 +140,7 @@ def _flexures(spring: Spring) -> Iterator[Check]:
     yield check(
         "lateral balance: radial over tangential compliance of the tip", _lateral_balance(spring),
         "<=", 0.01, "1", source="small deflections; what makes both directions alike",
-        otherwise="warn",
+        otherwise="warn", remedy="set optimiser.form to curvature, which balances exactly",
     )  # fmt: skip
 
 

@@ -330,7 +330,9 @@ def reoptimise(
 ) -> CurvatureOptimum | None:
     """The optimum near that of a problem not much different; None where none is found.
 
-    With ``freeze`` it is the nearest shape that meets the constraints, whatever its gap.
+    With ``freeze`` it is the nearest shape that meets the constraints, whatever its gap. A search
+    that stops before it meets them goes on once from there: its estimate of the curvature of the
+    objective may be what stopped it.
     """
     unit = flexure.root_half_thickness
     start = np.concatenate(
@@ -341,6 +343,8 @@ def reoptimise(
     )
     problem = CurvatureProblem(flexure, start if freeze else None, len(start) - 3)
     (solution,) = solve_from_many(problem, [start], problem.bounds)
+    if solution.violation > FEASIBLE:
+        (solution,) = solve_from_many(problem, [solution.variables], problem.bounds)
     if solution.violation > FEASIBLE or solution.variables[-1] <= 0.0:
         return None
     near = _optimum(flexure, solution)

@@ -56,6 +56,9 @@ FILLETED = 2
 """In the first passes the fillet is chosen; then it stays."""
 ROOT_REACH = 1.5
 """Length over root thickness along which a root is thickened for the sake of its fillets."""
+FILLET_AIM = 0.998
+"""Stress of the fillets, over its limit, that the sizing aims at: it stops near its aim, and on
+the safe side of the limit."""
 LEAST_RELIEF = 0.3
 """The root is thickened until at least this share of the design stress is left there."""
 
@@ -181,7 +184,7 @@ def _relief(
     if limit is None:
         return 1.0
     nominal = max(float(state.nominal_stress[-1, 0]) for state in states)
-    spare = limit / (root.model.fillet_stress_factor * nominal)
+    spare = FILLET_AIM * limit / (root.model.fillet_stress_factor * nominal)
     return min(1.0, max(LEAST_RELIEF, round(earlier * spare**2, 6)))
 
 
