@@ -24,6 +24,7 @@ _EVERY = (
     "greatest stiffness at rest",
     "stress at the clamp (estimate)",
     "bend angle (estimate)",
+    "stiffness at the deflection (estimate)",
     "gap between roller and guide",
     "length of the whole leaf",
 )
@@ -110,7 +111,8 @@ def _cautious(case: Case) -> Case:
     return replace(
         case,
         stress_factor=max(case.stress_factor, margin),
-        max_bend_angle=case.max_bend_angle / margin**2,  # one is what the check lets pass
+        slope_factor=max(case.slope_factor, margin),
+        stroke_factor=1.0 / (1.0 + estimate.STROKE_ERROR),
     )
 
 
@@ -149,10 +151,11 @@ def _bending(case: Case, setup: Setup) -> tuple[Check, ...]:
     length, angle = setup.longest, case.deflection
     bent = estimate.bend(setup.leaf, setup.lever, length, angle)
     stress = case.stress_factor * estimate.stress(setup.leaf, setup.lever, length, angle)
-    slope = math.inf if bent is None else bent.slope
+    slope = math.inf if bent is None else case.slope_factor * bent.slope
     where = f"at {math.degrees(angle):.4g} deg and length {in_mm(length)}"
 
-    def estimated(name: str, value: float, limit: float, unit: str, error: float) -> Check:
+    def estimated(name: str, value: float, limit: float, unit: str, factor: float) -> Check:
+        error = estimate.ESTIMATE_ERROR if factor == 1.0 else 0.0
         near = value <= (1.0 + error) * limit
         return check(
             f"{name} (estimate), {where}", value, "<=", limit, unit,
@@ -161,15 +164,25 @@ def _bending(case: Case, setup: Setup) -> tuple[Check, ...]:
             + (f"within {error:.0%}" if error else "scaled to the exact unit"),
         )  # fmt: skip
 
-    unknown = estimate.ESTIMATE_ERROR if case.stress_factor == 1.0 else 0.0
     claims: tuple[Check, ...] = (
-        estimated("stress at the clamp", stress, case.design_stress, "Pa", unknown),
+        estimated("stress at the clamp", stress, case.design_stress, "Pa", case.stress_factor),
     )
     if math.isfinite(case.max_bend_angle):
-        claims += (
-            estimated("bend angle", slope, case.max_bend_angle, "rad", estimate.ESTIMATE_ERROR),
-        )
-    return claims
+        claims += (estimated("bend angle", slope, case.max_bend_angle, "rad", case.slope_factor),)
+    return (*claims, _rising(case, setup, where))
+
+
+def _rising(case: Case, setup: Setup, where: str) -> Check:
+    """Whether the torque still rises there; where the estimate cannot tell it is a warning."""
+    at = setup.leaf, setup.lever, setup.longest
+    angle = case.deflection / case.stroke_factor
+    nearer = estimate.stiffness(*at, angle / (1.0 + estimate.STROKE_ERROR))
+    return check(
+        f"stiffness at the deflection (estimate), {where}",
+        setup.leaves * estimate.stiffness(*at, angle), ">=", 0.0, "N*m/rad",
+        otherwise="warn" if case.stroke_factor == 1.0 and nearer >= 0.0 else "fail",
+        source=f"beyond its peak the lever runs away; angle within {estimate.STROKE_ERROR:.1%}",
+    )  # fmt: skip
 
 
 def _room(case: Case, setup: Setup) -> tuple[Check, ...]:
