@@ -73,6 +73,11 @@ INFEASIBLE = {
     ),
     "held inboard": ("paper", ["unit.clamp=inboard"], "stress at the clamp"),
     "guide": ("paper", ["leaf.effective_length=[5.1 mm, 45 mm]"], "gap between roller and guide"),
+    "guide, far off": (
+        "paper",
+        ["leaf.effective_length=[1 mm, 45 mm]"],
+        "gap between roller and guide",
+    ),
     "room": ("paper", ["envelope.leaf_length=65 mm"], "length of the whole leaf"),
     "range too short": (
         "paper",

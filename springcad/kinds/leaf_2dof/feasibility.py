@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from springcad.kinds.feasible import advised, require_all
-from springcad.kinds.knobs import Knob, remedies
+from springcad.kinds.knobs import Knob, far_remedies, remedies
 from springcad.kinds.leaf_2dof import estimate, paper_unit
 from springcad.kinds.leaf_2dof.case import END_MARGIN, Case, Setup, in_mm
 from springcad.kinds.leaf_2dof.sizing import approach, closed_form_setup
@@ -102,7 +102,8 @@ def case_remedies(case: Case) -> tuple[str, ...]:
         still = failures(tried) if close.intersection(unsure) else ()
         return tuple(name for name in unsure if name not in close or name in still)
 
-    return remedies(case, knobs_of(case), left)
+    knobs = knobs_of(case)
+    return remedies(case, knobs, left) or far_remedies(case, knobs, left)
 
 
 def _cautious(case: Case) -> Case:
