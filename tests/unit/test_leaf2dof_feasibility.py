@@ -78,6 +78,15 @@ INFEASIBLE = {
         ["leaf.effective_length=[1 mm, 45 mm]"],
         "gap between roller and guide",
     ),
+    "no beam": (
+        "paper",
+        [
+            "leaf.effective_length=[10 mm, 150 mm]",
+            "leaf.thickness=2.4 mm",
+            "target={deflection: 2 deg}",
+        ],
+        "thickness over effective length",
+    ),
     "room": ("paper", ["envelope.leaf_length=65 mm"], "length of the whole leaf"),
     "range too short": (
         "paper",

@@ -16,6 +16,8 @@ from springcad.result import Check, check
 
 STIFFNESS_TOLERANCE = 0.01
 """By which the stiffness may miss the end of the wanted range."""
+STOUTEST = 0.2
+"""Thickness over effective length up to which a leaf bends as a beam within 1 %."""
 
 
 _EVERY = (
@@ -25,6 +27,7 @@ _EVERY = (
     "stress at the clamp (estimate)",
     "bend angle (estimate)",
     "stiffness at the deflection (estimate)",
+    "thickness over effective length",
     "gap between roller and guide",
     "length of the whole leaf",
 )
@@ -187,7 +190,7 @@ def _rising(case: Case, setup: Setup, where: str) -> Check:
 
 
 def _room(case: Case, setup: Setup) -> tuple[Check, ...]:
-    """Roller and guide, and the whole leaf."""
+    """The leaf at its shortest, roller and guide, and the whole leaf."""
     reached = float(
         paper_unit.deflection_at_stress(
             setup.leaf, setup.lever, setup.shortest, case.design_stress / case.stress_factor
@@ -199,6 +202,9 @@ def _room(case: Case, setup: Setup) -> tuple[Check, ...]:
               setup.shortest - case.roller_radius - turned, ">=", case.clearance, "m",
               source="L - r, less the roller's approach; a guide as high as the roller; smallest "
               "gap of the process"),
+        check(f"thickness over effective length, length {in_mm(setup.shortest)}",
+              setup.leaf.thickness / setup.shortest, "<=", STOUTEST, "1",
+              source="a beam is slender: finite elements then agree within 1 %"),
     )  # fmt: skip
     if math.isfinite(case.leaf_room):
         claims += (
