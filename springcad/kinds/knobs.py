@@ -18,6 +18,8 @@ Case = TypeVar("Case", bound="DataclassInstance")
 
 FURTHEST = 2.0
 """Knobs are turned by this factor at most."""
+FAR = 30.0
+"""And by this one where a number may be far off, as by a slip of its unit."""
 STRIDE = 0.02
 """The first search steps by this share of the value; the printed grid follows between two steps."""
 MOST = 4
@@ -90,6 +92,14 @@ def remedies(
     return tuple(" and ".join(str(turn) for turn in chain) for chain in chains)
 
 
+def far_remedies(
+    case: Case, knobs: Sequence[Knob], failures: Callable[[Case], Sequence[str]]
+) -> tuple[str, ...]:
+    """As ``remedies``, of one number alone, turned by up to a factor of FAR."""
+    turns = _turns(case, knobs, lambda tried: not failures(tried), FAR)
+    return tuple(str(turn) for turn in turns[:MOST])
+
+
 def _chain(
     case: Case, turn: Turn, knobs: Sequence[Knob], failures: Callable[[Case], Sequence[str]]
 ) -> list[Turn]:
@@ -117,16 +127,22 @@ def _helpful(
     return [replace(turn, last=turn.value) for turn in _turns(case, knobs, works)]
 
 
-def _turns(case: Case, knobs: Sequence[Knob], works: Callable[[Case], bool]) -> list[Turn]:
+def _turns(
+    case: Case, knobs: Sequence[Knob], works: Callable[[Case], bool], furthest: float = FURTHEST
+) -> list[Turn]:
     """The smallest turn of each knob that works, smallest first."""
     found = []
     for knob in knobs:
-        ways = (_turn(case, knob, way, works) for way in ((1, -1) if knob.upwards else (-1,)))
+        ways = (
+            _turn(case, knob, way, works, furthest) for way in ((1, -1) if knob.upwards else (-1,))
+        )
         found += sorted((turn for turn in ways if turn), key=lambda turn: turn.change)[:1]
     return sorted(found, key=lambda turn: turn.change)
 
 
-def _turn(case: Case, knob: Knob, way: int, works: Callable[[Case], bool]) -> Turn | None:
+def _turn(
+    case: Case, knob: Knob, way: int, works: Callable[[Case], bool], furthest: float
+) -> Turn | None:
     """The nearest value in one direction that works, and how far on it goes on working."""
     start = value_of(case, knob)
     if start <= 0.0:
@@ -147,9 +163,7 @@ def _turn(case: Case, knob: Knob, way: int, works: Callable[[Case], bool]) -> Tu
         return inside
 
     here = start * 10.0**digits
-    end = max(1, round(here * FURTHEST**way))
-    stride = way * max(1, round(STRIDE * here))
-    indices = range(math.floor(here) + 1 if way > 0 else math.ceil(here) - 1, end + way, stride)
+    indices = _indices(here, way, furthest)
     before = round(here)
     for position, index in enumerate(indices):
         if tried(index):
@@ -164,6 +178,17 @@ def _turn(case: Case, knob: Knob, way: int, works: Callable[[Case], bool]) -> Tu
             return Turn(knob, start, value(first), value(edge(inside, outside, True)))
         inside = outside
     return Turn(knob, start, value(first), None)
+
+
+def _indices(here: float, way: int, furthest: float) -> list[int]:
+    """Of the values tried: steps of STRIDE of the value there, from next to here to the end."""
+    index = math.floor(here) + 1 if way > 0 else math.ceil(here) - 1
+    end = max(1, round(here * furthest**way))
+    indices = []
+    while (end - index) * way >= 0:
+        indices.append(index)
+        index += way * max(1, round(STRIDE * index))
+    return indices
 
 
 def value_of(case: Any, knob: Knob) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from springcad.kinds.knobs import Knob, remedies
+from springcad.kinds.knobs import Knob, far_remedies, remedies
 
 LENGTH = Knob("length", "mm", 1e-3, "length")
 WIDTH = Knob("width", "mm", 1e-3, "width")
@@ -44,6 +44,16 @@ def test_two_numbers_are_turned_where_one_does_not_help() -> None:
     assert remedies(Beams(), [LENGTH, WIDTH], failures) == (
         "raise length from 10 to 12 mm and raise width from 10 to ≥ 15 mm",
     )
+
+
+def test_a_number_may_be_far_off() -> None:
+
+    def failures(case: Beams, least: float = 100e-3) -> tuple[str, ...]:
+        return () if case.length >= least else ("length",)
+
+    assert remedies(Beams(), [LENGTH], failures) == ()
+    assert far_remedies(Beams(), [LENGTH], failures) == ("raise length from 10 to ≥ 100 mm",)
+    assert far_remedies(Beams(), [LENGTH], lambda case: failures(case, 10.0)) == ()
 
 
 def test_nothing_is_to_be_changed_where_nothing_fails() -> None:

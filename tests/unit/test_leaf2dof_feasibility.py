@@ -61,8 +61,32 @@ INFEASIBLE = {
     ),
     "stress": ("paper", ["target.deflection=17 deg"], "stress at the clamp"),
     "bend angle": ("paper", ["leaf.max_bend_angle=10 deg"], "bend angle"),
+    "beyond the torque's peak": (
+        "paper",
+        [
+            "target.deflection=30 deg",
+            "leaf.thickness=0.2 mm",
+            "leaf.max_bend_angle=40 deg",
+            "target.stiffness=[0.1 N*m/rad, 5 N*m/rad]",
+        ],
+        "stiffness at the deflection",
+    ),
     "held inboard": ("paper", ["unit.clamp=inboard"], "stress at the clamp"),
     "guide": ("paper", ["leaf.effective_length=[5.1 mm, 45 mm]"], "gap between roller and guide"),
+    "guide, far off": (
+        "paper",
+        ["leaf.effective_length=[1 mm, 45 mm]"],
+        "gap between roller and guide",
+    ),
+    "no beam": (
+        "paper",
+        [
+            "leaf.effective_length=[10 mm, 150 mm]",
+            "leaf.thickness=2.4 mm",
+            "target={deflection: 2 deg}",
+        ],
+        "thickness over effective length",
+    ),
     "room": ("paper", ["envelope.leaf_length=65 mm"], "length of the whole leaf"),
     "range too short": (
         "paper",
@@ -100,6 +124,7 @@ def test_the_first_broken_condition_is_told_and_every_remedy_cures(
             found = stroke(setup.leaf, setup.lever, setup.longest, better.deflection)
             assert found.stress <= better.design_stress, remedy
             assert found.bend_angle <= better.max_bend_angle, remedy
+            assert found.stiffness >= 0.0, remedy
 
 
 def test_remedies_stay_within_what_a_spec_may_say() -> None:

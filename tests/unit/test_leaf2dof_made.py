@@ -207,8 +207,9 @@ def test_the_template_designs_without_a_failure(tmp_path: Path) -> None:
 
 
 def test_a_deflection_beyond_the_torque_s_peak_fails_with_the_angle_that_does() -> None:
+    """So near the peak, at 21.82 deg, that the estimate cannot tell."""
     made = made_leaves(
-        "paper", "target.deflection=28 deg", "leaf.thickness=0.2 mm", "unit.arm_radius=30 mm",
+        "paper", "target.deflection=22 deg", "leaf.thickness=0.2 mm", "unit.arm_radius=30 mm",
         "leaf.max_bend_angle=40 deg", "target.stiffness=[0.1 N*m/rad, 5 N*m/rad]",
     )  # fmt: skip
     (claim,) = (c for c in leaf_checks(made) if c.name == "deflection, longest length")

@@ -87,6 +87,7 @@ INFEASIBLE = {
         "parabolic", ["target.spring_deflection=1.5 mm", "leaf.length=70 mm"],
         "thickness over length",
     ),
+    "far too long": ("parabolic", ["leaf.length=2 m"], "thickness over length"),
     "sheet too thick": ("triangular", ["leaf.sheet_thickness=4 mm"], "thickness of the sheet"),
     "too few layers": ("parabolic", ["leaf.layers=5"], "stiffness at full stress"),
     "too little height": ("parabolic", ["envelope.height=20 mm"], "stiffness at full stress"),

@@ -28,7 +28,9 @@ class Case:
         design_stress, yield_strength: allowed in bending, and of the material.
         elastic_modulus, poisson_ratio: of the material.
         clearance: least gap between roller and guide.
-        stress_factor: stress of the exact unit over its estimate; 1 while not known.
+        stress_factor, slope_factor: stress and bend angle of the exact unit over their estimates;
+            1 while not known.
+        stroke_factor: the same of the angle at which the torque peaks.
     """
 
     deflection: float
@@ -55,6 +57,8 @@ class Case:
     poisson_ratio: float
     clearance: float
     stress_factor: float = 1.0
+    slope_factor: float = 1.0
+    stroke_factor: float = 1.0
 
     @property
     def is_sized(self) -> bool:

@@ -86,15 +86,18 @@ def make_leaves(spec: Leaf2dofSpec, progress: Progress) -> MadeLeaves:
 
 
 def _exact(case: Case) -> tuple[Case, Setup]:
-    """The case with the stress of the exact unit, and the setup that follows from it."""
+    """The case with stress and slope of the exact unit, and the setup that follows from it."""
     setup = setup_of(case)
     for _ in range(_PASSES):
         at = setup.leaf, setup.lever, setup.longest, case.deflection
         try:
-            exact = float(stroke(*at).stress)
+            exact = stroke(*at)
         except ArithmeticError:
             return case, setup
-        case = replace(case, stress_factor=exact / estimate.stress(*at))
+        case = replace(case, stress_factor=float(exact.stress) / estimate.stress(*at))
+        bent = estimate.bend(*at)
+        if bent is not None:
+            case = replace(case, slope_factor=float(exact.bend_angle) / bent.slope)
         before, setup = setup, setup_of(case)
         if setup == before:
             break

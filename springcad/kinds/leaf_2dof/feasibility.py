@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from springcad.kinds.feasible import advised, require_all
-from springcad.kinds.knobs import Knob, remedies
+from springcad.kinds.knobs import Knob, far_remedies, remedies
 from springcad.kinds.leaf_2dof import estimate, paper_unit
 from springcad.kinds.leaf_2dof.case import END_MARGIN, Case, Setup, in_mm
 from springcad.kinds.leaf_2dof.sizing import approach, closed_form_setup
@@ -16,6 +16,8 @@ from springcad.result import Check, check
 
 STIFFNESS_TOLERANCE = 0.01
 """By which the stiffness may miss the end of the wanted range."""
+STOUTEST = 0.2
+"""Thickness over effective length up to which a leaf bends as a beam within 1 %."""
 
 
 _EVERY = (
@@ -24,6 +26,8 @@ _EVERY = (
     "greatest stiffness at rest",
     "stress at the clamp (estimate)",
     "bend angle (estimate)",
+    "stiffness at the deflection (estimate)",
+    "thickness over effective length",
     "gap between roller and guide",
     "length of the whole leaf",
 )
@@ -101,7 +105,8 @@ def case_remedies(case: Case) -> tuple[str, ...]:
         still = failures(tried) if close.intersection(unsure) else ()
         return tuple(name for name in unsure if name not in close or name in still)
 
-    return remedies(case, knobs_of(case), left)
+    knobs = knobs_of(case)
+    return remedies(case, knobs, left) or far_remedies(case, knobs, left)
 
 
 def _cautious(case: Case) -> Case:
@@ -110,7 +115,8 @@ def _cautious(case: Case) -> Case:
     return replace(
         case,
         stress_factor=max(case.stress_factor, margin),
-        max_bend_angle=case.max_bend_angle / margin**2,  # one is what the check lets pass
+        slope_factor=max(case.slope_factor, margin),
+        stroke_factor=1.0 / (1.0 + estimate.STROKE_ERROR),
     )
 
 
@@ -149,10 +155,11 @@ def _bending(case: Case, setup: Setup) -> tuple[Check, ...]:
     length, angle = setup.longest, case.deflection
     bent = estimate.bend(setup.leaf, setup.lever, length, angle)
     stress = case.stress_factor * estimate.stress(setup.leaf, setup.lever, length, angle)
-    slope = math.inf if bent is None else bent.slope
+    slope = math.inf if bent is None else case.slope_factor * bent.slope
     where = f"at {math.degrees(angle):.4g} deg and length {in_mm(length)}"
 
-    def estimated(name: str, value: float, limit: float, unit: str, error: float) -> Check:
+    def estimated(name: str, value: float, limit: float, unit: str, factor: float) -> Check:
+        error = estimate.ESTIMATE_ERROR if factor == 1.0 else 0.0
         near = value <= (1.0 + error) * limit
         return check(
             f"{name} (estimate), {where}", value, "<=", limit, unit,
@@ -161,19 +168,29 @@ def _bending(case: Case, setup: Setup) -> tuple[Check, ...]:
             + (f"within {error:.0%}" if error else "scaled to the exact unit"),
         )  # fmt: skip
 
-    unknown = estimate.ESTIMATE_ERROR if case.stress_factor == 1.0 else 0.0
     claims: tuple[Check, ...] = (
-        estimated("stress at the clamp", stress, case.design_stress, "Pa", unknown),
+        estimated("stress at the clamp", stress, case.design_stress, "Pa", case.stress_factor),
     )
     if math.isfinite(case.max_bend_angle):
-        claims += (
-            estimated("bend angle", slope, case.max_bend_angle, "rad", estimate.ESTIMATE_ERROR),
-        )
-    return claims
+        claims += (estimated("bend angle", slope, case.max_bend_angle, "rad", case.slope_factor),)
+    return (*claims, _rising(case, setup, where))
+
+
+def _rising(case: Case, setup: Setup, where: str) -> Check:
+    """Whether the torque still rises there; where the estimate cannot tell it is a warning."""
+    at = setup.leaf, setup.lever, setup.longest
+    angle = case.deflection / case.stroke_factor
+    nearer = estimate.stiffness(*at, angle / (1.0 + estimate.STROKE_ERROR))
+    return check(
+        f"stiffness at the deflection (estimate), {where}",
+        setup.leaves * estimate.stiffness(*at, angle), ">=", 0.0, "N*m/rad",
+        otherwise="warn" if case.stroke_factor == 1.0 and nearer >= 0.0 else "fail",
+        source=f"beyond its peak the lever runs away; angle within {estimate.STROKE_ERROR:.1%}",
+    )  # fmt: skip
 
 
 def _room(case: Case, setup: Setup) -> tuple[Check, ...]:
-    """Roller and guide, and the whole leaf."""
+    """The leaf at its shortest, roller and guide, and the whole leaf."""
     reached = float(
         paper_unit.deflection_at_stress(
             setup.leaf, setup.lever, setup.shortest, case.design_stress / case.stress_factor
@@ -185,6 +202,9 @@ def _room(case: Case, setup: Setup) -> tuple[Check, ...]:
               setup.shortest - case.roller_radius - turned, ">=", case.clearance, "m",
               source="L - r, less the roller's approach; a guide as high as the roller; smallest "
               "gap of the process"),
+        check(f"thickness over effective length, length {in_mm(setup.shortest)}",
+              setup.leaf.thickness / setup.shortest, "<=", STOUTEST, "1",
+              source="a beam is slender: finite elements then agree within 1 %"),
     )  # fmt: skip
     if math.isfinite(case.leaf_room):
         claims += (

@@ -67,7 +67,7 @@ def least_bent_length(case: Case) -> float:
     if math.isinf(case.max_bend_angle):
         return 0.0
     thickest = case.leaf(case.width, case.thickness)
-    allowed = case.max_bend_angle / (1.0 + estimate.ESTIMATE_ERROR)
+    allowed = case.max_bend_angle / (case.slope_factor * (1.0 + estimate.ESTIMATE_ERROR))
     low, high = 0.0, 1.5 * case.arm_radius / math.tan(allowed) + 2.0 * case.arm_radius
     while high - low > GRID:
         middle = 0.5 * (low + high)

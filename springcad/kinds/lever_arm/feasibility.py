@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from springcad.kinds.feasible import advised, require_all
-from springcad.kinds.knobs import remedies
+from springcad.kinds.knobs import far_remedies, remedies
 from springcad.kinds.lever_arm.case import Case
 from springcad.kinds.lever_arm.changes import KNOBS, SEARCH_DECIDES, is_spec
 from springcad.kinds.lever_arm.claims import claims
@@ -45,12 +45,13 @@ def case_remedies(case: Case) -> tuple[str, ...]:
     broken = failures(case)
     if not broken:
         return ()
-    turned = remedies(
-        case,
-        KNOBS,
-        lambda tried: failures(tried) if is_spec(case, tried) else (*broken, "rules of the spec"),
+
+    def left(tried: Case) -> tuple[str, ...]:
+        return failures(tried) if is_spec(case, tried) else (*broken, "rules of the spec")
+
+    changes = (
+        remedies(case, KNOBS, left) or tuple(_omissions(case)) or far_remedies(case, KNOBS, left)
     )
-    changes = turned or tuple(_omissions(case))
     if case.shape == "omega":
         return tuple(f"{change} {SEARCH_DECIDES}" for change in changes)
     return changes
