@@ -89,10 +89,9 @@ def choose(spec: RotaryFlexureSpec, build: Build, progress: Progress) -> Choice:
     best = search.best
     if best is None or best.spring is None:
         raise nothing_made(aim, search.designs, build, progress)
-    ring = next(known for known in (candidate(aim, best.pair),) if known is not None)
     considered = (*considered, *search.widened)
     designs = tuple(search.designs)
-    return Choice(aim, best.spring, best.pair, best.level, ring.bound, allowed, considered, designs)
+    return Choice(aim, best.spring, best.pair, best.level, best.bound, allowed, considered, designs)
 
 
 def _order(aim: Aim, considered: tuple[Screened, ...]) -> list[Screened]:

@@ -65,10 +65,12 @@ class Stop:
 
 @dataclass(frozen=True)
 class Design:
-    """A ring that was designed at a level: the spring if it passes, or what stopped it."""
+    """A ring that was designed at a level: the spring if it passes, or what stopped it; with the
+    last level that closed forms allow it."""
 
     pair: Pair
     level: int
+    bound: int
     spring: Spring | None
     stop: Stop | None
 
@@ -105,7 +107,7 @@ class Climb:
         level, step, misses = max(least, min(self._start(ring), ring.bound)), 0, 0
         while low < level < high and misses < MISSES and self.left > 0:
             self.left -= 1
-            design = self.designed(ring.pair, level)
+            design = self.designed(ring.pair, level, ring.bound)
             if design.spring is not None:
                 low, misses = level, 0
                 step = min(max(2 * step, _up(ring, design.spring)), LONGEST_STEP)
@@ -139,9 +141,9 @@ class Climb:
             ):
                 continue
             left -= 1
-            self._learn(None, self.designed(ring.pair, ring.straight))
+            self._learn(None, self.designed(ring.pair, ring.straight, ring.bound))
 
-    def designed(self, pair: Pair, level: int) -> Design:
+    def designed(self, pair: Pair, level: int, bound: int) -> Design:
         """One spring in full; the best so far is remembered."""
         self.progress(f"designing {pair}, level {level} of the {self.aim.objective}")
         trial = self.aim.at(pair, level)
@@ -150,11 +152,13 @@ class Climb:
             spring = self.build(trial.spec, trial.case, feasibility, lambda _: None)
         except InfeasibleError as error:
             stop = Stop(error.claim, error.value, error.limit, error.unit)
-            design = Design(pair, level, None, stop)
+            design = Design(pair, level, bound, None, stop)
         else:
             failed = [c for c in choice_checks(self.aim, spring) if c.status == "fail"]
             stops = [Stop(c.name, c.value, c.limit, c.unit) for c in failed]
-            design = Design(pair, level, None if stops else spring, stops[0] if stops else None)
+            design = Design(
+                pair, level, bound, None if stops else spring, stops[0] if stops else None
+            )
         self.designs.append(design)
         if design.spring is not None:
             self.best = design

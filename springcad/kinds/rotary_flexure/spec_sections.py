@@ -97,7 +97,9 @@ class Camshaft(Section):
     friction: Annotated[float, Field(ge=0.0, le=0.6)] = 0.0
     """Coefficient of dry friction between tips and camshaft, for the hysteresis; a bare number."""
     min_tooth: Length | None = None
-    """Least width of a tooth between two tips, in mm; the process's thinnest web if not given."""
+    """Least width of a tooth between two tips at rest, the pitch less the tip thickness, in mm; the
+    process's thinnest web if not given. Towards its tip the drawn tooth is thinner and keeps only
+    that web."""
 
 
 class Optimiser(Section):
