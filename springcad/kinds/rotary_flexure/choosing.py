@@ -128,11 +128,11 @@ def _considered(
         if shaped >= FIRST or len(found) >= 2 * FIRST:
             break
         look(ring)
-    tried, here = len(found), None
-    while (leader := best()) is not None and leader is not here and len(found) < tried + AROUND:
+    most, here = len(found) + AROUND, None
+    while (leader := best()) is not None and leader is not here:
         here = leader
         for pair in _around(aim, leader.pair):
-            near = candidate(aim, pair) if pair not in found else None
+            near = candidate(aim, pair) if pair not in found and len(found) < most else None
             if near is not None:
                 look(near)
     return tuple(ring for ring in found.values() if ring is not None)
