@@ -95,8 +95,8 @@ def _exactly_one(section: Section) -> str | None:
 
 
 @rule("target.law.exponential.decade", "target.deflection")
-def _decades(decade: float, deflection: float) -> str | None:
-    if deflection <= MOST_DECADES * decade:
+def _decades(decade: float, deflection: float | str) -> str | None:
+    if isinstance(deflection, str) or deflection <= MOST_DECADES * decade:
         return None
     return f"the torque grows by more than {MOST_DECADES} decades up to {show(deflection, ANGLE)}"
 

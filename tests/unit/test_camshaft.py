@@ -26,6 +26,7 @@ from springcad.kinds.rotary_flexure.camshaft import (
     flank,
     seated,
 )
+from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
 from springcad.kinds.rotary_flexure.flexure_contact import flexure_part
 from springcad.mechanics.beam import (
     PreparedBeam,
@@ -35,6 +36,9 @@ from springcad.mechanics.beam import (
     unloaded_points,
 )
 from springcad.mechanics.conjugate import Flank
+from springcad.mechanics.contact import contact_modulus
+from springcad.mechanics.fem.assembly import Sheet
+from springcad.mechanics.fem.pad import pad_pressure
 
 RATE, THICKNESS, MODULUS, TIP = 150.0, 4.5e-3, 200e9, 0.2e-3
 FORCE = 228.35
@@ -180,6 +184,28 @@ def test_the_outline_is_one_sound_part_with_corners_only_at_the_tip_circle(sprin
     assert np.count_nonzero(np.abs(turns) > 1e-6) == 2 * inputs.count
     lands = [p for p in cam.profile.outer.pieces if isinstance(p, Arc) and p.center == (0.0, 0.0)]
     assert len(lands) == inputs.count
+
+
+@pytest.mark.parametrize("spring", [s1, serpentine])
+@pytest.mark.parametrize("direction", [1, -1])
+def test_a_pad_at_the_very_end_of_a_flank_still_feels_hertzs_pressure(
+    spring: object, direction: int
+) -> None:
+    """Half of the strip lies beyond the last contact: the tooth goes on as it is curved there."""
+    beam, inputs = spring()  # type: ignore[operator]
+    cam = design_camshaft(beam, inputs)
+    side = cam.flanks[0 if direction > 0 else 1]
+    modulus = contact_modulus(MODULUS, 0.3, MODULUS, 0.3)
+    pressed = pad_pressure(
+        drawn_flank(cam.drawn, direction),
+        side.points[-1],
+        float(side.force[-1]),
+        half_thickness=TIP,
+        sheet=Sheet(modulus, 0.3, THICKNESS),
+    )
+    assert pressed.peak_pressure == pytest.approx(
+        cam.pressure[0 if direction > 0 else 1][-1], rel=0.05
+    )
 
 
 @pytest.mark.parametrize("spring", [s1, serpentine])

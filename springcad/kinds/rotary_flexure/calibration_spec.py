@@ -22,7 +22,7 @@ from springcad.spec.text import printable
 from springcad.spec.tree import Place, parse
 
 if TYPE_CHECKING:
-    from springcad.kinds.rotary_flexure.spec import Camshaft
+    from springcad.kinds.rotary_flexure.spec_sections import Camshaft
     from springcad.spec.material import MaterialSpec
 
 

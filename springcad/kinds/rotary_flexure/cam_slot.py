@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Arc, Curve, Line, Piece
 from springcad.geometry.outline_ops import piece_end
 from springcad.geometry.polyline import rotate_vectors
@@ -62,12 +63,16 @@ class Slot:
 
 @dataclass(frozen=True)
 class _Side:
-    """One side of the slot from its top to where it is parallel to the unloaded tip."""
+    """One side of the slot from its top to where it is parallel to the unloaded tip.
+
+    ``top_center`` is the centre of curvature at the top.
+    """
 
     pieces: tuple[Piece, ...]
     normal: Floats
     preload: float
     exact_from: float
+    top_center: Floats
 
     @property
     def top(self) -> Floats:
@@ -95,12 +100,13 @@ def tooth_space(
         smallest_radius: of curvature of a flank (m).
         backlash: play of the unloaded tip, both sides together, at the contact radius (m).
         bottom_clearance: between the nose at rest and the bottom, at least (m).
-        land: by how much a flank goes straight on beyond its last contact, at least, so that the
-            contact strip does not reach the tooth's corner (m).
+        land: by how much a flank goes on beyond its last contact, with the curvature that it has
+            there, at least, so that the contact strip does not reach the tooth's corner (m). On a
+            straight end the pad would lie flat.
 
     Raises:
         InfeasibleError: a flank is hollow or sharper than ``smallest_radius`` beyond half of its
-            stroke.
+            stroke, or bends back below the tip circle.
     """
     turn = 0.5 * backlash / float(np.hypot(*rest.nose_center))
     sides = [_side(flank, rest, smallest_radius, -flank.direction * turn) for flank in flanks]
@@ -134,8 +140,10 @@ def flank_points(slot: Slot, direction: int) -> Floats:
     That a little more than the drawn flank is there helps a search for the contact near rest.
     """
     chain = slot.pieces if direction > 0 else backwards(slot.pieces)
-    curve = next(piece for piece in chain if isinstance(piece, Curve))
-    arc = next(piece for piece in chain if isinstance(piece, Arc))
+    first = next(i for i, piece in enumerate(chain) if isinstance(piece, Curve))
+    curve, arc = chain[first : first + 2]
+    assert isinstance(curve, Curve)
+    assert isinstance(arc, Arc)
     angle = arc.start_angle + arc.sweep * np.linspace(0.0, 1.5, 31)[1:]
     beyond = np.array(arc.center) + arc.radius * np.column_stack([np.cos(angle), np.sin(angle)])
     return np.concatenate([curve.points, beyond])
@@ -152,25 +160,34 @@ def _side(flank: Flank, rest: Rest, smallest_radius: float, turn: float) -> _Sid
     wall = flank.direction * np.array([-rest.inward[1], rest.inward[0]])
     center = flank.points[first] + radius * normal
     arc = Arc(_pair(center), radius, _polar(-normal), _turn_between(normal, wall))
+    top_center = flank.points[-1] + float(flank.radius[-1]) * flank.normals[-1]
     proud = rest.half_thickness - float((center - radius * wall - rest.nose_center) @ wall)
     return _Side(
         pieces=(rotate(curve, turn), rotate(arc, turn)),
         normal=rotate_vectors(wall[None], np.array([turn]))[0],
         preload=proud,
         exact_from=float(flank.angle[first]),
+        top_center=rotate_vectors(top_center[None], np.array([turn]))[0],
     )
 
 
 def _reaching(side: _Side, tip_radius: float) -> _Side:
-    """The side with a straight piece up to the tip circle where it ends below it."""
-    point, along = piece_end(side.pieces[0], 0.0)
-    if tip_radius - np.hypot(*point) < 1e-9:
+    """The side with an arc of its last curvature up to the tip circle where it ends below it."""
+    if tip_radius - np.hypot(*side.top) < 1e-9:
         return side
-    # |point − reach · along| = tip radius, with the flank running inward along ``along``.
-    inward = float(point @ along)
-    reach = inward + np.sqrt(inward**2 + tip_radius**2 - float(point @ point))
-    top = Line(_pair(point - reach * along), _pair(point))
-    return replace(side, pieces=(top, *side.pieces))
+    spoke = side.top - side.top_center
+    radius, height = float(np.hypot(*spoke)), float(np.hypot(*side.top_center))
+    crest = (tip_radius**2 - height**2 - radius**2) / (2.0 * height * radius)
+    if crest > 1.0:
+        raise InfeasibleError(
+            "a flank bends back below the tip circle, radius reached",
+            height + radius, tip_radius, "m",
+        )  # fmt: skip
+    outwards = _polar(side.top_center)
+    lean = _turn_between(side.top_center, spoke)
+    start = outwards + float(np.copysign(np.arccos(crest), lean))
+    arc = Arc(_pair(side.top_center), radius, start, outwards + lean - start)
+    return replace(side, pieces=(arc, *side.pieces))
 
 
 def _bottom(lower: _Side, upper: _Side, rest: Rest, clearance: float) -> tuple[Floats, float]:

@@ -46,6 +46,11 @@ class Candidate:
     bound: int
     waviness: float
 
+    @property
+    def has_straight(self) -> bool:
+        """Whether straight flexures are enough at the level ``straight``."""
+        return self.waviness <= 1.0
+
 
 def candidates(aim: Aim) -> tuple[Candidate, ...]:
     """Rings over the whole range of what is open, those first that need waves least."""

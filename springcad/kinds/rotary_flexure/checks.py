@@ -27,6 +27,8 @@ BEND_TOLERANCE = 1e-4
 """Share by which a search may pass the bend limit."""
 DEFORMED_GAP = 5e-5
 """Gap between deformed flexures below which tolerances of cut and model may make them touch, m."""
+THIN_TOOTH = "camshaft tooth, thinnest"
+"""A claim that the choice of a contact radius looks at."""
 CAM_INTERFERENCE = 5e-6
 """Depth to which the calculated tips may cut into the camshaft, m: below what a cut resolves."""
 
@@ -158,7 +160,7 @@ def _camshaft(spring: Spring) -> Iterator[Check]:
     yielding = case.yield_strength
     same = "camshaft taken to be of the flexures' material"
     yield check(
-        "camshaft tooth, thinnest", camshaft.tooth_thickness, ">=", case.min_web, "m",
+        THIN_TOOTH, camshaft.tooth_thickness, ">=", case.min_web, "m",
         source="outline of the camshaft; thinnest web of the process",
         remedy="raise envelope.contact_radius or lower flexures.count",
     )  # fmt: skip

@@ -10,7 +10,8 @@ import numpy as np
 
 from springcad.kinds.rotary_flexure.aim import Pair
 from springcad.kinds.rotary_flexure.candidates import rounded_up
-from springcad.kinds.rotary_flexure.choosing import Choice, Design, Stop
+from springcad.kinds.rotary_flexure.choosing import Choice
+from springcad.kinds.rotary_flexure.climbing import Design, Stop
 from springcad.kinds.rotary_flexure.feasibility import failures
 from springcad.kinds.rotary_flexure.numbers import bound_of
 from springcad.kinds.rotary_flexure.rim import rim_check

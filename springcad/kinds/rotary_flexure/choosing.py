@@ -6,18 +6,15 @@ Three stages, each on what the one before has left, the same answer every time:
    (``candidates``);
 2. the search for the shape on the design law ranks the most promising ones and what lies around
    the best of them (``screening``);
-3. the best are designed in full, level by level, until a check stops them.
+3. the best are designed in full, level by level, until a check stops them (``climbing``).
 
 What is chosen is designed like any other spec: one with the chosen numbers gives the same spring.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from springcad.errors import InfeasibleError
 from springcad.kinds.rotary_flexure.aim import Aim, Pair
 from springcad.kinds.rotary_flexure.candidates import (
     Candidate,
@@ -26,56 +23,20 @@ from springcad.kinds.rotary_flexure.candidates import (
     rounded_up,
     worth,
 )
-from springcad.kinds.rotary_flexure.checks import DEFORMED_GAP, spring_checks
-from springcad.kinds.rotary_flexure.feasibility import Case, feasibility_checks
-from springcad.kinds.rotary_flexure.rim import rim_check
+from springcad.kinds.rotary_flexure.choice_refusal import nothing_made, nothing_possible
+from springcad.kinds.rotary_flexure.climbing import MISSES, Build, Climb, Design
 from springcad.kinds.rotary_flexure.screening import Screened, screened
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
-from springcad.result import Check, Progress
-
-Build = Callable[[RotaryFlexureSpec, Case, tuple[Check, ...], Progress], Spring]
+from springcad.result import Progress
 
 FIRST = 5
 """Rings screened before the search goes on around the best of them,"""
 AROUND = 9
 """and at most so many around it."""
-DESIGNS = 7
-"""Springs designed at most."""
 COUNT_MOVES = (1.2, 1.08, 1.0 / 1.08)
 RADIUS_MOVES = (1.1, 1.03, 1.0 / 1.03)
 """Steps around the best ring, as factors."""
-LONGEST_STEP = 4
-"""Levels by which a design that passes is left behind at most: each time twice as many."""
-WARY = 0.7
-"""Share of the gap that is left which the next level may take."""
-CAUTION = 0.02
-"""Where a shape is not found at all, the next level is lower by this share of the bound."""
-
-
-@dataclass(frozen=True)
-class Stop:
-    """The limit that a ring did not keep; SI."""
-
-    claim: str
-    value: float
-    limit: float
-    unit: str
-
-    @property
-    def lack(self) -> float | None:
-        """By how much a gap is too small, m; None for other limits."""
-        return self.limit - self.value if self.claim.startswith("gap") else None
-
-
-@dataclass(frozen=True)
-class Design:
-    """A ring that was designed at a level: the spring if it passes, or what stopped it."""
-
-    pair: Pair
-    level: int
-    spring: Spring | None
-    stop: Stop | None
 
 
 @dataclass(frozen=True)
@@ -111,23 +72,26 @@ def choose(spec: RotaryFlexureSpec, build: Build, progress: Progress) -> Choice:
     """The best spring that the search finds.
 
     Raises:
-        InfeasibleError: none passes; with what stopped the most promising one.
+        InfeasibleError: none passes; with what was tried and what stopped it.
     """
     aim = Aim.of(spec)
     progress("closed forms: which rings are possible")
     allowed = candidates(aim)
     if not allowed:
-        raise InfeasibleError("rings within the closed-form limits", 0.0, 1.0, "1")
+        raise nothing_possible(aim, build, progress)
     considered = _considered(aim, allowed, progress)
-    search = _Search(aim, build, progress)
+    search = Climb(aim, build, progress)
     for ring in _order(aim, considered):
         search.climb(ring)
+        if search.best is None and len(search.designs) >= MISSES:
+            search.straight(allowed)
+    search.straight(allowed)
     best = search.best
     if best is None or best.spring is None:
-        raise _refusal(search.designs)
-    bound = next(ring.bound for ring in considered if ring.pair == best.pair)
+        raise nothing_made(aim, search.designs, build, progress)
+    considered = (*considered, *search.widened)
     designs = tuple(search.designs)
-    return Choice(aim, best.spring, best.pair, best.level, bound, allowed, considered, designs)
+    return Choice(aim, best.spring, best.pair, best.level, best.bound, allowed, considered, designs)
 
 
 def _order(aim: Aim, considered: tuple[Screened, ...]) -> list[Screened]:
@@ -164,11 +128,11 @@ def _considered(
         if shaped >= FIRST or len(found) >= 2 * FIRST:
             break
         look(ring)
-    tried, here = len(found), None
-    while (leader := best()) is not None and leader is not here and len(found) < tried + AROUND:
+    most, here = len(found) + AROUND, None
+    while (leader := best()) is not None and leader is not here:
         here = leader
         for pair in _around(aim, leader.pair):
-            near = candidate(aim, pair) if pair not in found else None
+            near = candidate(aim, pair) if pair not in found and len(found) < most else None
             if near is not None:
                 look(near)
     return tuple(ring for ring in found.values() if ring is not None)
@@ -187,91 +151,3 @@ def _around(aim: Aim, pair: Pair) -> list[Pair]:
     if open_radius:
         moves += [Pair(count, rounded_up(move * radius)) for move in RADIUS_MOVES]
     return [move for move in moves if move.count >= 3]
-
-
-@dataclass
-class _Search:
-    """Designs in full, the best so far, and where the camshaft was too weak."""
-
-    aim: Aim
-    build: Build
-    progress: Progress
-    designs: list[Design] = field(default_factory=list)
-    best: Design | None = None
-    weak_radius: float = 0.0
-
-    def climb(self, ring: Screened) -> None:
-        """Design one ring at higher and higher levels; only what would be better than the best."""
-        aim, pair = self.aim, ring.pair
-        if pair.contact_radius <= self.weak_radius:
-            return
-        least = aim.lowest
-        if self.best is not None:
-            if worth(aim, pair, ring.bound) <= worth(aim, self.best.pair, self.best.level):
-                return
-            least = self.best.level + 1 if aim.objective != "mass" else 0
-        low, high = least - 1, ring.bound + 1
-        level, step = max(least, min(math.floor(ring.level), ring.bound)), 0
-        while low < level < high and len(self.designs) < DESIGNS:
-            design = self._designed(pair, level)
-            if design.spring is not None:
-                low, self.best = level, design
-                step = min(max(2 * step, self._up(ring, design.spring)), LONGEST_STEP)
-                level = min(low + step, max(low + 1, (low + high) // 2))
-            elif low >= least:
-                high, level = level, (low + level) // 2
-            else:
-                high = level
-                if design.stop is not None and "camshaft" in design.stop.claim:
-                    if "torsion" in design.stop.claim:
-                        self.weak_radius = max(self.weak_radius, pair.contact_radius)
-                    return
-                level -= self._back(ring, design.stop)
-
-    def _up(self, ring: Screened, spring: Spring) -> int:
-        return max(1, math.floor(WARY * _spare_gap(spring) / ring.fall)) if ring.fall > 0.0 else 1
-
-    def _back(self, ring: Screened, stop: Stop | None) -> int:
-        if stop is not None and stop.lack is not None and ring.fall > 0.0:
-            return max(1, math.ceil(stop.lack / ring.fall))
-        return max(1, round(CAUTION * ring.bound))
-
-    def _designed(self, pair: Pair, level: int) -> Design:
-        self.progress(f"designing {pair}, level {level} of the {self.aim.objective}")
-        trial = self.aim.at(pair, level)
-        try:
-            feasibility = feasibility_checks(trial.case)
-            spring = self.build(trial.spec, trial.case, feasibility, lambda _: None)
-        except InfeasibleError as error:
-            stop = Stop(error.claim, error.value, error.limit, error.unit)
-            design = Design(pair, level, None, stop)
-        else:
-            failed = [c for c in choice_checks(self.aim, spring) if c.status == "fail"]
-            stops = [Stop(c.name, c.value, c.limit, c.unit) for c in failed]
-            design = Design(pair, level, None if stops else spring, stops[0] if stops else None)
-        self.designs.append(design)
-        return design
-
-
-def _spare_gap(spring: Spring) -> float:
-    """What the gaps at rest and at full load have to spare, the smaller, m."""
-    deformed = min(float(stroke.gap.min()) for stroke in spring.strokes)
-    asked = spring.spec.flexures.min_deformed_gap or DEFORMED_GAP
-    return min(deformed - asked, spring.found.gap - spring.case.min_gap)
-
-
-def choice_checks(aim: Aim, spring: Spring) -> tuple[Check, ...]:
-    """The checks of a spring, with that of its rim where it is chosen."""
-    checks = spring_checks(spring)
-    if isinstance(aim.spec.envelope.outer_radius, str):
-        checks = (*checks, rim_check(spring))
-    return checks
-
-
-def _refusal(designs: list[Design]) -> InfeasibleError:
-    stop = designs[0].stop if designs else None
-    if stop is None:
-        claim = "rings with a shape of the flexures within all limits"
-        return InfeasibleError(claim, 0.0, 1.0, "1")
-    claim = f"{stop.claim}, of the most promising ring ({designs[0].pair})"
-    return InfeasibleError(claim, stop.value, stop.limit, stop.unit)

@@ -74,7 +74,8 @@ class Case:
         backlash: tangential play of a tip in its slot of the camshaft.
         min_slot: narrowest slot with a round bottom that the process cuts.
         least_gap: narrowest gap that the process cuts; ``min_gap`` may not be below it.
-        min_tooth: least width of a tooth of the camshaft between two tips; at least ``min_web``.
+        min_tooth: least width of a tooth of the camshaft between two tips at rest; at least
+            ``min_web``, which is all that the drawn tooth, thinner towards its tip, must keep.
         law: what a torque law asks for that is not linear.
         stack: the sheets of the joint, all alike; those on one camshaft twist it together.
     """

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from springcad.spec.rules import rule
 
 if TYPE_CHECKING:
-    from springcad.kinds.rotary_flexure.spec import Target
+    from springcad.kinds.rotary_flexure.spec_sections import Target
 
 AUTO = "auto"
 MAX = "max"

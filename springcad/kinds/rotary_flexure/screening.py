@@ -44,9 +44,11 @@ HALVINGS = 24
 
 @dataclass(frozen=True)
 class Screened:
-    """A ring, its bound, the level that it reaches, and the fall of its gap per level there, m."""
+    """A ring, the last level of straight flexures, its bound, the level that it reaches, and the
+    fall of its gap per level there, m."""
 
     pair: Pair
+    straight: int
     bound: int
     level: float
     fall: float
@@ -62,7 +64,8 @@ class _Shape:
 
 def screened(aim: Aim, candidate: Candidate) -> Screened | None:
     """What the ring reaches on the design law; None where no shape is found at all."""
-    pair, bound, levels = candidate.pair, candidate.bound, list(_levels(aim, candidate))
+    pair, levels = candidate.pair, list(_levels(aim, candidate))
+    straight, bound = candidate.straight, candidate.bound
     level, spare, fall = math.nan, math.nan, 0.0
     shape: _Shape | None = None
     while levels:
@@ -76,9 +79,9 @@ def screened(aim: Aim, candidate: Candidate) -> Screened | None:
             continue
         fall = 0.0 if math.isnan(level) else (spare - left) / (higher - level)
         if left < 0.0:
-            return Screened(pair, bound, level + spare / fall, fall)
+            return Screened(pair, straight, bound, level + spare / fall, fall)
         level, spare, shape = higher, left, next_shape
-    return Screened(pair, bound, level, max(fall, 0.0))
+    return Screened(pair, straight, bound, level, max(fall, 0.0))
 
 
 def _levels(aim: Aim, candidate: Candidate) -> Iterator[float]:

@@ -14,7 +14,7 @@ from springcad.spec.rules import Rule, Section, rule
 from springcad.spec.units import LENGTH, show
 
 if TYPE_CHECKING:
-    from springcad.kinds.rotary_flexure.spec import Envelope
+    from springcad.kinds.rotary_flexure.spec_sections import Envelope
 
 MOST = 200
 """Sheets, or springs, at most."""

@@ -1,0 +1,249 @@
+"""Springs designed in full, ring by ring, at higher and higher levels until a check stops them.
+
+How high a ring reaches is known from its shape on the design law alone (``screening``). What that
+leaves out is learned on the way and held against the rings that follow: how many levels the root
+and the stroke cost, by how much a drawn tooth is thinner than the pitch leaves it, and at which
+contact radius a camshaft is too weak. A ring that fails repeatedly is left for the next one. The
+level that straight flexures reach by closed forms is what a ring falls back on.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from springcad.errors import InfeasibleError
+from springcad.kinds.rotary_flexure.aim import Aim, Pair
+from springcad.kinds.rotary_flexure.camshaft import NO_TOOTH
+from springcad.kinds.rotary_flexure.candidates import Candidate, candidate, rounded_up, worth
+from springcad.kinds.rotary_flexure.checks import DEFORMED_GAP, THIN_TOOTH, spring_checks
+from springcad.kinds.rotary_flexure.feasibility import Case, feasibility_checks
+from springcad.kinds.rotary_flexure.rim import rim_check
+from springcad.kinds.rotary_flexure.screening import Screened, screened
+from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
+from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.result import Check, Progress
+
+Build = Callable[[RotaryFlexureSpec, Case, tuple[Check, ...], Progress], Spring]
+
+DESIGNS = 7
+"""Springs designed at most, of rings whose shape was searched for."""
+STRAIGHT_DESIGNS = 4
+"""The same of rings with straight flexures, in case those fail."""
+MISSES = 3
+"""Designs of one ring that may fail before the next is tried."""
+LONGEST_STEP = 4
+"""Levels by which a design that passes is left behind at most: each time twice as many."""
+WARY = 0.7
+"""Share of the gap that is left which the next level may take."""
+CAUTION = 0.02
+"""Where a shape is not found at all, the next level is lower by this share of the bound."""
+WIDER = 1.2
+"""Tooth added to one that came out too thin, over what it lacks."""
+
+
+@dataclass(frozen=True)
+class Stop:
+    """The limit that a ring did not keep; SI."""
+
+    claim: str
+    value: float
+    limit: float
+    unit: str
+
+    @property
+    def lack(self) -> float | None:
+        """By how much a gap is too small, m; None for other limits."""
+        return self.limit - self.value if self.claim.startswith("gap") else None
+
+    @property
+    def tooth(self) -> float | None:
+        """Thickness of a tooth that is too thin, m, negative for none; None for other limits."""
+        return self.value if self.claim in (THIN_TOOTH, NO_TOOTH) else None
+
+
+@dataclass(frozen=True)
+class Design:
+    """A ring that was designed at a level: the spring if it passes, or what stopped it; with the
+    last level that closed forms allow it."""
+
+    pair: Pair
+    level: int
+    bound: int
+    spring: Spring | None
+    stop: Stop | None
+
+
+@dataclass
+class Climb:
+    """Designs in full, the best so far, and what they have told about other rings.
+
+    Attributes:
+        widened: rings with wider teeth than those screened before, as they were screened.
+        optimism: levels by which shapes on the design law reach higher than springs.
+        loss: of a tooth between pitch and drawing, over the count of flexures, m.
+        weak_radius: contact radius at which the camshaft was too weak in torsion, m.
+        left: springs that may still be designed of rings that were screened.
+    """
+
+    aim: Aim
+    build: Build
+    progress: Progress
+    designs: list[Design] = field(default_factory=list)
+    best: Design | None = None
+    widened: list[Screened] = field(default_factory=list)
+    optimism: float = 0.0
+    loss: float = 0.0
+    weak_radius: float = 0.0
+    left: int = DESIGNS
+
+    def climb(self, ring: Screened) -> None:
+        """Design one ring at higher and higher levels; only what would be better than the best."""
+        if self._is_weak(ring.pair) or not self._may_win(ring.pair, ring.bound):
+            return
+        least = self._least
+        low, high = least - 1, ring.bound + 1
+        level, step, misses = max(least, min(self._start(ring), ring.bound)), 0, 0
+        while low < level < high and misses < MISSES and self.left > 0:
+            self.left -= 1
+            design = self.designed(ring.pair, level, ring.bound)
+            if design.spring is not None:
+                low, misses = level, 0
+                step = min(max(2 * step, _up(ring, design.spring)), LONGEST_STEP)
+                level = min(low + step, max(low + 1, (low + high) // 2))
+                continue
+            high, misses = level, misses + 1
+            if low >= least:
+                level = (low + level) // 2
+                continue
+            self._learn(ring, design)
+            if design.stop is not None and design.stop.tooth is not None:
+                wider = self._wider(ring, design.stop.tooth)
+                if wider is None:
+                    return
+                ring, high = wider, wider.bound + 1
+                level = max(least, min(level, self._start(ring)))
+            elif design.stop is not None and "camshaft" in design.stop.claim:
+                return
+            else:
+                step = max(2 * step, _back(ring, design.stop))
+                level = max(level - step, ring.straight) if level > ring.straight else low
+
+    def straight(self, rings: Iterable[Candidate]) -> None:
+        """Design the rings at the level of straight flexures while that beats the best."""
+        left = STRAIGHT_DESIGNS
+        for ring in rings:
+            if left == 0 or not ring.has_straight or not self._may_win(ring.pair, ring.straight):
+                return
+            if self._is_weak(ring.pair) or any(
+                (d.pair, d.level) == (ring.pair, ring.straight) for d in self.designs
+            ):
+                continue
+            left -= 1
+            self._learn(None, self.designed(ring.pair, ring.straight, ring.bound))
+
+    def designed(self, pair: Pair, level: int, bound: int) -> Design:
+        """One spring in full; the best so far is remembered."""
+        self.progress(f"designing {pair}, level {level} of the {self.aim.objective}")
+        trial = self.aim.at(pair, level)
+        try:
+            feasibility = feasibility_checks(trial.case)
+            spring = self.build(trial.spec, trial.case, feasibility, lambda _: None)
+        except InfeasibleError as error:
+            stop = Stop(error.claim, error.value, error.limit, error.unit)
+            design = Design(pair, level, bound, None, stop)
+        else:
+            failed = [c for c in choice_checks(self.aim, spring) if c.status == "fail"]
+            stops = [Stop(c.name, c.value, c.limit, c.unit) for c in failed]
+            design = Design(
+                pair, level, bound, None if stops else spring, stops[0] if stops else None
+            )
+        self.designs.append(design)
+        if design.spring is not None:
+            self.best = design
+        return design
+
+    @property
+    def _least(self) -> int:
+        """The lowest level that is of any use."""
+        if self.best is None or self.aim.objective == "mass":
+            return self.aim.lowest
+        return self.best.level + 1
+
+    def _may_win(self, pair: Pair, level: int) -> bool:
+        best = self.best
+        aim = self.aim
+        return best is None or worth(aim, pair, level) > worth(aim, best.pair, best.level)
+
+    def _is_weak(self, pair: Pair) -> bool:
+        """Whether what earlier rings have shown lets this one's camshaft fail as well."""
+        if pair.contact_radius <= self.weak_radius:
+            return True
+        return self._nominal_tooth(pair) - self.loss * pair.count < self._least_tooth
+
+    @property
+    def _least_tooth(self) -> float:
+        return self.aim.spec.process.rules.min_web
+
+    def _nominal_tooth(self, pair: Pair) -> float:
+        """Width that pitch and tips leave, m; the drawn tooth narrows towards its tip."""
+        pitch = 2.0 * math.pi * pair.contact_radius / pair.count
+        return pitch - self.aim.spec.flexures.tip_thickness
+
+    def _start(self, ring: Screened) -> int:
+        """The level that the ring is expected to reach."""
+        return max(math.floor(ring.level - self.optimism), min(ring.straight, ring.bound))
+
+    def _learn(self, ring: Screened | None, design: Design) -> None:
+        """What the failure of a design says about other rings."""
+        stop, pair = design.stop, design.pair
+        if stop is None:
+            return
+        if "torsion" in stop.claim:
+            self.weak_radius = max(self.weak_radius, pair.contact_radius)
+        if stop.tooth is not None:
+            self.loss = max(self.loss, (self._nominal_tooth(pair) - stop.tooth) / pair.count)
+        if ring is not None and stop.lack is not None and ring.fall > 0.0:
+            self.optimism = max(self.optimism, ring.level - design.level + stop.lack / ring.fall)
+
+    def _wider(self, ring: Screened, tooth: float) -> Screened | None:
+        """The ring with more tooth than that, where its radius is free and it has a shape."""
+        if not isinstance(self.aim.spec.envelope.contact_radius, str):
+            return None
+        count = ring.pair.count
+        added = WIDER * count * (self._least_tooth - tooth) / (2.0 * math.pi)
+        pair = Pair(count, rounded_up(ring.pair.contact_radius + added))
+        known = candidate(self.aim, pair)
+        if known is None or not self._may_win(pair, known.bound):
+            return None
+        self.progress(f"searching for shapes, wider teeth: {pair}")
+        wider = screened(self.aim, known)
+        if wider is not None:
+            self.widened.append(wider)
+        return wider
+
+
+def _up(ring: Screened, spring: Spring) -> int:
+    return max(1, math.floor(WARY * _spare_gap(spring) / ring.fall)) if ring.fall > 0.0 else 1
+
+
+def _back(ring: Screened, stop: Stop | None) -> int:
+    if stop is not None and stop.lack is not None and ring.fall > 0.0:
+        return max(1, math.ceil(stop.lack / ring.fall))
+    return max(1, round(CAUTION * ring.bound))
+
+
+def _spare_gap(spring: Spring) -> float:
+    """What the gaps at rest and at full load have to spare, the smaller, m."""
+    deformed = min(float(stroke.gap.min()) for stroke in spring.strokes)
+    asked = spring.spec.flexures.min_deformed_gap or DEFORMED_GAP
+    return min(deformed - asked, spring.found.gap - spring.case.min_gap)
+
+
+def choice_checks(aim: Aim, spring: Spring) -> tuple[Check, ...]:
+    """The checks of a spring, with that of its rim where it is chosen."""
+    checks = spring_checks(spring)
+    if isinstance(aim.spec.envelope.outer_radius, str):
+        checks = (*checks, rim_check(spring))
+    return checks
