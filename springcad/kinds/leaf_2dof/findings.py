@@ -145,9 +145,10 @@ def advice(made: MadeLeaves) -> Iterator[str]:
     limit = case.max_bend_angle
     if math.isfinite(limit):
         least = float(paper_unit.least_length(setup.leaf, limit, case.yield_strength))
+        which = "longer leaves only" if least > setup.shortest else "every length of this leaf"
         yield (
             f"A bend angle of {_degrees(limit)} reaches the yield strength at "
-            f"{in_mm(least)} (003, Eq. 12): it protects longer leaves only."
+            f"{in_mm(least)} (003, Eq. 12): it protects {which}."
         )
     if made.spec.material.life is None:
         yield from _better_material(made)

@@ -174,7 +174,8 @@ def advice(case: Case, found: OmegaDesign, leaf: OmegaLeaf) -> Iterator[str]:
     """How the optima spread, and what layers cost."""
     spread = found.spread
     yield (
-        f"Of {spread.starts} searches {spread.feasible} met every limit: stiffness per width "
+        f"Of {spread.starts} searches (starts, then restarts near the best) {spread.feasible} "
+        "met every limit: stiffness per width "
         f"{1e-6 * spread.quantile(1.0):.4g} N/mm per mm at best, {1e-6 * spread.quantile(0.75):.4g}"
         f" in the upper quartile, {1e-6 * spread.quantile(0.5):.4g} in the middle and "
         f"{1e-6 * spread.quantile(0.25):.4g} in the lower quartile (linear beam)."
