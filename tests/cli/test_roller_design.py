@@ -71,6 +71,20 @@ def test_a_drum_that_is_too_small_is_refused_with_the_radius_that_will_do(run_sp
     assert re.search(r"raise joint\.drum_radius (from \S+ )?to ", run.stderr)
 
 
+@pytest.mark.slow
+def test_a_law_that_leaves_the_roller_clear_at_rest_is_judged_too(designed):
+    """With the cube of the angle the mirrored element has the place of the first contacts."""
+    law = "[0 N*m/deg, 0 N*m/deg^2, 3.4 N*m/deg^3]"
+    report = designed("roller-quadratic", "--set", f"target.law.polynomial={law}")
+    response = report["response"]
+    assert response["contact_angle_rad"][0] is None
+    assert response["roller_force_N"][0] == 0.0
+    assert response["first_contact_angle_rad"] > np.radians(0.1)
+    judged = [check for check in report["checks"] if check["name"].startswith("second")]
+    assert len(judged) == 8
+    assert {check["status"] for check in judged} == {"pass"}
+
+
 def test_friction_opens_a_loop(designed):
     report = designed("roller-linear", "--set", "friction=0.05", "--no-verify")
     loading, unloading = (
