@@ -85,6 +85,16 @@ def test_a_law_that_leaves_the_roller_clear_at_rest_is_judged_too(designed):
     assert {check["status"] for check in judged} == {"pass"}
 
 
+@pytest.mark.slow
+def test_a_strip_too_wide_for_the_contact_part_is_told_and_not_taken_for_disagreement(designed):
+    """0.5 mm behind the profile; at full stroke the strip is 0.7 mm long."""
+    report = designed("roller-paper", "--set", "contact_part.thickness=0.5 mm")
+    checks = {check["name"]: check for check in report["checks"]}
+    untold = checks["second opinion: angles at which it cannot tell the pressure"]
+    assert (untold["value"], untold["status"]) == (1.0, "warn")
+    assert checks["second opinion: contact pressure"]["status"] == "pass"
+
+
 def test_friction_opens_a_loop(designed):
     report = designed("roller-linear", "--set", "friction=0.05", "--no-verify")
     loading, unloading = (
