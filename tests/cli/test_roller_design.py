@@ -85,6 +85,16 @@ def test_a_law_that_leaves_the_roller_clear_at_rest_is_judged_too(designed):
     assert {check["status"] for check in judged} == {"pass"}
 
 
+def test_a_profile_that_few_steps_spoil_is_laid_to_the_steps(run_springcad):
+    few = ("method=stepwise", "compensation=none", "stepwise={steps: 19, form: printed}")
+    options = [word for each in few for word in ("--set", each)]
+    run = run_springcad("design", SPECS / "roller-paper.yaml", "--no-verify", *options)
+    assert run.returncode == 4
+    assert "on the profile of 19 steps" in run.stderr
+    assert "raise stepwise.steps" in run.stderr
+    assert "drum_radius" not in run.stderr
+
+
 @pytest.mark.slow
 def test_a_strip_too_wide_for_the_contact_part_is_told_and_not_taken_for_disagreement(designed):
     """0.5 mm behind the profile; at full stroke the strip is 0.7 mm long."""
