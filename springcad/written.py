@@ -61,12 +61,19 @@ class WrittenDesign:
 
     def array(self, key: str) -> NDArray[np.float64]:
         """The numbers (N,) at ``key``; raises like ``number``."""
+        numbers = self.array_with_gaps(key)
+        if not np.isfinite(numbers).all():
+            raise IncompleteDesignError(f"{key} is not a list of numbers")
+        return numbers
+
+    def array_with_gaps(self, key: str) -> NDArray[np.float64]:
+        """The numbers (N,) at ``key``, NaN for each ``null``; raises like ``number``."""
         value = self._value(key)
         try:
             numbers = np.asarray(value, dtype=np.float64)
         except (TypeError, ValueError):
             numbers = np.zeros(0)
-        if numbers.ndim != 1 or not len(numbers) or not np.isfinite(numbers).all():
+        if numbers.ndim != 1 or not np.isfinite(numbers).any():
             raise IncompleteDesignError(f"{key} is not a list of numbers")
         return numbers
 

@@ -71,6 +71,40 @@ def test_a_drum_that_is_too_small_is_refused_with_the_radius_that_will_do(run_sp
     assert re.search(r"raise joint\.drum_radius (from \S+ )?to ", run.stderr)
 
 
+@pytest.mark.slow
+def test_a_law_that_leaves_the_roller_clear_at_rest_is_judged_too(designed):
+    """With the cube of the angle the mirrored element has the place of the first contacts."""
+    law = "[0 N*m/deg, 0 N*m/deg^2, 3.4 N*m/deg^3]"
+    report = designed("roller-quadratic", "--set", f"target.law.polynomial={law}")
+    response = report["response"]
+    assert response["contact_angle_rad"][0] is None
+    assert response["roller_force_N"][0] == 0.0
+    assert response["first_contact_angle_rad"] > np.radians(0.1)
+    judged = [check for check in report["checks"] if check["name"].startswith("second")]
+    assert len(judged) == 8
+    assert {check["status"] for check in judged} == {"pass"}
+
+
+def test_a_profile_that_few_steps_spoil_is_laid_to_the_steps(run_springcad):
+    few = ("method=stepwise", "compensation=none", "stepwise={steps: 19, form: printed}")
+    options = [word for each in few for word in ("--set", each)]
+    run = run_springcad("design", SPECS / "roller-paper.yaml", "--no-verify", *options)
+    assert run.returncode == 4
+    assert "on the profile of 19 steps" in run.stderr
+    assert "raise stepwise.steps" in run.stderr
+    assert "drum_radius" not in run.stderr
+
+
+@pytest.mark.slow
+def test_a_strip_too_wide_for_the_contact_part_is_told_and_not_taken_for_disagreement(designed):
+    """0.5 mm behind the profile; at full stroke the strip is 0.7 mm long."""
+    report = designed("roller-paper", "--set", "contact_part.thickness=0.5 mm")
+    checks = {check["name"]: check for check in report["checks"]}
+    untold = checks["second opinion: angles at which it cannot tell the pressure"]
+    assert (untold["value"], untold["status"]) == (1.0, "warn")
+    assert checks["second opinion: contact pressure"]["status"] == "pass"
+
+
 def test_friction_opens_a_loop(designed):
     report = designed("roller-linear", "--set", "friction=0.05", "--no-verify")
     loading, unloading = (

@@ -138,6 +138,16 @@ def test_the_mesh_covers_the_part_with_good_elements(density: Density, thickness
     assert mesh_area(mesh) == pytest.approx(filled - missing + corners, rel=1e-4)
 
 
+def test_a_profile_too_steep_for_the_mesh_is_refused_with_what_helps() -> None:
+    """On a drum of 600 mm the roller runs 20 mm down a nearly upright profile."""
+    large = joint_with(600e-3, 30e-3)
+    with pytest.raises(InfeasibleError, match="steep") as refused:
+        element_mesh(element_geometry(synthesise(large, LAW), dimensions(3e-3)), COARSE)
+    assert "lower joint.drum_radius" in refused.value.remedies[0]
+    smaller = joint_with(300e-3, 20e-3)
+    element_mesh(element_geometry(synthesise(smaller, LAW), dimensions(3e-3)), COARSE)
+
+
 def test_the_contact_edges_run_down_the_profile() -> None:
     geometry = geometry_of()
     mesh = element_mesh(geometry, COARSE)

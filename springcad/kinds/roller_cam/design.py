@@ -129,8 +129,15 @@ def make_joint(
         raise InfeasibleError(claim, len(faults), 0.0, "1")
     progress("turning the joint through its stroke")
     angles = _angles(followed)
-    sensitivity = offset_sensitivity(joint, profile.curve, angles)
-    drawn, stroke = _drawn(spec, followed, compensated, geometry, sensitivity)
+    try:
+        sensitivity = offset_sensitivity(joint, profile.curve, angles)
+        drawn, stroke = _drawn(spec, followed, compensated, geometry, sensitivity)
+    except InfeasibleError as error:
+        if stepwise is None:
+            raise
+        claim = f"on the profile of {spec.stepwise.steps} steps: {error.claim}"
+        more = ("raise stepwise.steps", _BY_ENERGY)
+        raise InfeasibleError(claim, error.value, error.limit, error.unit, more) from error
     density = spec.material.values.density.value
     return MadeJoint(
         spec=spec,

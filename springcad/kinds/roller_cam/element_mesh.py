@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
+from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Arc
 from springcad.kinds.roller_cam.element import ElementGeometry, require_room
 from springcad.mechanics.fem.blocks import (
@@ -41,6 +42,7 @@ LEAN = 0.4
 may end level, and neither of the two blocks must be pointed there."""
 LOWEST = 0.35
 """It ends no lower than this share of the way from the foot up to the end of the profile."""
+_LESS_STEEP = "lower joint.drum_radius: the contact then goes further round the roller"
 
 
 @dataclass(frozen=True)
@@ -95,8 +97,8 @@ def element_mesh(geometry: ElementGeometry, density: Density) -> Mesh:
     The edges of ``contact`` run down the profile, from the free end to the end of the overrun.
 
     Raises:
-        InfeasibleError: the parts of the element do not fit together.
-        ValueError: an element would be turned inside out.
+        InfeasibleError: the parts of the element do not fit together, or the contact part is of a
+            shape that the blocks cannot follow.
     """
     require_room(geometry)
     across = _across(density)
@@ -106,7 +108,11 @@ def element_mesh(geometry: ElementGeometry, density: Density) -> Mesh:
         "bar": bar,
         **_contact_part_blocks(geometry, density, bar[-1]),
     }
-    return join(blocks, EDGE_SETS)
+    try:
+        return join(blocks, EDGE_SETS)
+    except ValueError as error:
+        claim = f"meshes of an element with such a steep profile ({error})"
+        raise InfeasibleError(claim, 0.0, 1.0, "1", (_LESS_STEEP,)) from error
 
 
 def _across(density: Density) -> Floats:

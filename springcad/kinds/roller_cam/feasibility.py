@@ -170,6 +170,10 @@ def _degrees(angle: float) -> str:
 
 
 _LAW = "change target.law there: no other number within a factor of two helps"
+_MATERIAL = (
+    "lower material.design_stress to at most the yield strength and see what else is left, or "
+    "change the material: no number alone helps"
+)
 
 
 def case_remedies(case: Case) -> tuple[str, ...]:
@@ -184,7 +188,8 @@ def case_remedies(case: Case) -> tuple[str, ...]:
         still = failures(tried)
         return tuple(name for name in _without_room(tried) if name not in close or name in still)
 
-    return remedies(case, knobs_of(case), left) or (_LAW,)
+    last = _LAW if case.design_stress <= case.yield_strength else _MATERIAL
+    return remedies(case, knobs_of(case), left) or (last,)
 
 
 def _without_room(case: Case) -> tuple[str, ...]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,8 +66,9 @@ def judge_joint(written: WrittenDesign, progress: Progress) -> Judgement:
     asked = [joint.dead_zone + share * (joint.deflection - joint.dead_zone) for share in SHARES]
     presses = press_through(element, asked)
     mesh = element.model.solid.mesh
+    pressures, untold = _pressures(written, joint, element, presses)
     figures: dict[str, Value] = {"elements": len(mesh.elements), "unknowns": mesh.unknowns}
-    checks = [_mesh_lies_on_drawing(joint, element), _reaches_the_end(asked, presses)]
+    checks = [_mesh_lies_on_drawing(joint, element), _reaches_the_end(asked, presses), *untold]
     if presses:
         notch = snapped(root_stress(element, presses[-1]))
         hook = snapped(contact_part_stress(element, presses[-1]))
@@ -74,7 +76,7 @@ def judge_joint(written: WrittenDesign, progress: Progress) -> Judgement:
         checks += _stress_checks(notch, hook, written.number("design.yield_strength_Pa"))
     return Judgement(
         method=METHOD,
-        comparisons=tuple(_comparisons(written, joint, element, presses)),
+        comparisons=(*_comparisons(written, joint, element, presses), *pressures),
         checks=tuple(checks),
         assumptions=assumptions,
         figures=figures,
@@ -86,58 +88,87 @@ def _comparisons(
 ) -> Iterator[Comparison]:
     if not presses:
         return
-    angles = np.array([press.angle for press in presses])
-
-    def reported(key: str) -> Floats:
-        known = written.array(f"response.{key}")
-        return np.asarray(np.interp(angles, written.array("response.angle_rad"), known))
-
-    def compared(
-        name: str,
-        unit: str,
-        designed: Floats,
-        judged: Callable[[Press], float],
-        tolerance: float,
-        source: str,
-        *,
-        relative: bool = True,
-    ) -> Comparison:
-        return Comparison(
-            name=name,
-            unit=unit,
-            place="angle",
-            place_unit="rad",
-            places=angles,
-            designed=np.array([snapped(float(value)) for value in designed]),
-            judged=np.array([snapped(judged(press)) for press in presses]),
-            tolerance=tolerance,
-            relative=relative,
-            source=source,
-        )
-
     source = "beam with a yielding contact part, drawn profile; finite elements"
-    moment, force = reported("group_torque_Nm"), reported("roller_force_N")
-    yield compared(
-        "torque of a group", "N*m", moment, lambda press: torque(element, press),
-        TOLERANCE * float(np.max(moment)), source, relative=False,
+    moment = _reported(written, "group_torque_Nm", presses)
+    yield _compared(
+        "torque of a group", "N*m", presses, moment, [torque(element, press) for press in presses],
+        TOLERANCE * float(np.max(moment)), source,
     )  # fmt: skip
-    yield compared(
-        "force of the roller", "N", force, lambda press: float(np.hypot(*press.force)),
-        TOLERANCE * float(np.max(force)), source, relative=False,
+    force = _reported(written, "roller_force_N", presses)
+    yield _compared(
+        "force of the roller", "N", presses, force,
+        [float(np.hypot(*press.force)) for press in presses],
+        TOLERANCE * float(np.max(force)), source,
     )  # fmt: skip
-    beam = joint.geometry.cantilever
-    stress = beam_stress(beam, joint.roller, angles, force, reported("contact_angle_rad"))
-    yield compared(
-        "stress along the cantilever", "Pa", stress, lambda press: side_stress(element, press),
-        STRESS_TOLERANCE * float(np.nanmax(stress, initial=0.0)),
+    angles = np.array([press.angle for press in presses])
+    gamma = _reported(written, "contact_angle_rad", presses)
+    stress = beam_stress(joint.geometry.cantilever, joint.roller, angles, force, gamma)
+    yield _compared(
+        "stress along the cantilever", "Pa", presses, stress,
+        [side_stress(element, press) for press in presses],
+        STRESS_TOLERANCE * float(np.max(stress)),
         "beam under the reported force; finite elements; one height from the clamp",
-        relative=False,
     )  # fmt: skip
-    yield compared(
-        "contact pressure", "Pa", reported("contact_pressure_Pa"),
-        lambda press: contact_pressure(element, press, joint.outline), PRESSURE_TOLERANCE,
-        "elastic strip; elements of a block pressed on the profile as drawn",
+
+
+def _pressures(
+    written: WrittenDesign, joint: WrittenJoint, element: ElementContact, presses: Sequence[Press]
+) -> tuple[tuple[Comparison, ...], tuple[Check, ...]]:
+    """Contact pressure where the roller is on the profile, and a check if a block cannot tell it.
+
+    Before the first contact of the law the roller is on the corner where the profile begins.
+    """
+    first = written.number("response.first_contact_angle_rad")
+    on_profile = [press for press in presses if press.angle >= first]
+    found = [contact_pressure(element, press, joint.outline) for press in on_profile]
+    told = [k for k, pressure in enumerate(found) if not math.isnan(pressure)]
+    checks = () if len(told) == len(found) else (_untold_pressure(len(found) - len(told)),)
+    if not told:
+        return (), checks
+    at = [on_profile[k] for k in told]
+    comparison = _compared(
+        "contact pressure", "Pa", at, _reported(written, "contact_pressure_Pa", at),
+        [found[k] for k in told], PRESSURE_TOLERANCE,
+        "elastic strip; elements of a block pressed on the profile as drawn", relative=True,
     )  # fmt: skip
+    return (comparison,), checks
+
+
+def _reported(written: WrittenDesign, key: str, presses: Sequence[Press]) -> Floats:
+    """What the report says at the angles of the presses.
+
+    A roller that is clear has no contact angle; as it has no force either, that of the first
+    contact will do.
+    """
+    known = written.array_with_gaps(f"response.{key}")
+    touching = np.isfinite(known)
+    at = written.array("response.angle_rad")[touching]
+    return np.asarray(np.interp([press.angle for press in presses], at, known[touching]))
+
+
+def _compared(
+    name: str,
+    unit: str,
+    presses: Sequence[Press],
+    designed: Floats,
+    judged: Sequence[float],
+    tolerance: float,
+    source: str,
+    *,
+    relative: bool = False,
+) -> Comparison:
+    return Comparison(
+        name=name,
+        unit=unit,
+        place="angle",
+        place_unit="rad",
+        places=np.array([press.angle for press in presses]),
+        designed=np.array([snapped(float(value)) for value in designed]),
+        judged=np.array([snapped(value) for value in judged]),
+        tolerance=tolerance,
+        relative=relative,
+        source=source,
+    )
 
 
 def beam_stress(
@@ -167,6 +198,15 @@ def _stress_checks(notch: float, hook: float, yield_strength: float) -> Iterator
         "second opinion: stress in the contact part against yield", hook, "<=", yield_strength,
         "Pa", source="finite elements at the deflection; back of it and fillet at its foot",
         remedy="a larger contact_part.thickness lowers it", otherwise="warn",
+    )  # fmt: skip
+
+
+def _untold_pressure(count: int) -> Check:
+    return check(
+        "second opinion: angles at which it cannot tell the pressure", float(count), "<=", 0.0, "1",
+        source="the strip is wider than 0.35 of the contact part is thick: there neither the "
+        "half-planes of the design nor a block are like it",
+        remedy="a larger contact_part.thickness", otherwise="warn",
     )  # fmt: skip
 
 
