@@ -10,7 +10,7 @@ import numpy as np
 from springcad.kinds.leaf_2dof.made import MadeLeaves
 from springcad.kinds.leaf_2dof.sizing import approach
 from springcad.kinds.leaf_2dof.unit import contact_pressure
-from springcad.kinds.pressure import PRESSURE_OVER_ULTIMATE
+from springcad.kinds.pressure import pressure_limit
 from springcad.mechanics.contact import contact_modulus
 from springcad.result import Check, check
 
@@ -67,13 +67,10 @@ def _contact(made: MadeLeaves) -> Iterator[Check]:
         max(0.0, float(np.max(strokes.station - strokes.length))), "<=", straight, "m",
         source="exact unit; up to where the corners of the contact end begin",
     )  # fmt: skip
-    ultimate = made.spec.material.values.ultimate_strength
-    if ultimate is None:
-        return
+    limit, words = pressure_limit(made.spec.material.values)
     yield check(
-        "contact pressure of the roller", float(np.max(pressure(made))), "<=",
-        PRESSURE_OVER_ULTIMATE * ultimate.value, "Pa",
-        source=f"Hertz; {PRESSURE_OVER_ULTIMATE:g} times the tensile strength",
+        "contact pressure of the roller", float(np.max(pressure(made))), "<=", limit, "Pa",
+        source=f"Hertz; {words}",
         remedy="a larger unit.roller_radius or a wider leaf lowers it", otherwise="warn",
     )  # fmt: skip
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from springcad.kinds.pressure import PRESSURE_OVER_ULTIMATE
+from springcad.kinds.pressure import pressure_limit
 from springcad.kinds.roller_cam.correction import Correction
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.remedies import (
@@ -150,13 +150,10 @@ def _contact(made: MadeJoint) -> Iterator[Check]:
         source=f"smallest distance along the whole profile, at {where}",
     )  # fmt: skip
     yield _with_profile_remedy(claim, made, f"roller cuts the profile at {where}")
-    ultimate = made.spec.material.values.ultimate_strength
-    if ultimate is None:
-        return
-    limit = PRESSURE_OVER_ULTIMATE * ultimate.value
+    limit, words = pressure_limit(made.spec.material.values)
     yield check(
         "contact pressure on the profile", float(np.max(made.strips.peak_pressure)), "<=", limit,
-        "Pa", source=f"drawn profile; {PRESSURE_OVER_ULTIMATE:g} times the tensile strength",
+        "Pa", source=f"drawn profile; {words}",
         remedy="a larger joint.roller_radius or a thicker sheet lowers it", otherwise="warn",
     )  # fmt: skip
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.kinds.pressure import PRESSURE_OVER_ULTIMATE
+from springcad.kinds.pressure import pressure_limit
 from springcad.result import Check, check
 
 if TYPE_CHECKING:
@@ -174,15 +174,13 @@ def _camshaft(spring: Spring) -> Iterator[Check]:
         "Pa", source=f"round core without notches, von Mises; {same}",
         remedy="raise envelope.contact_radius",
     )  # fmt: skip
-    ultimate = spring.spec.material.values.ultimate_strength
-    if ultimate is not None:
-        pressure = max(float(stroke.pressure.max()) for stroke in spring.strokes)
-        yield check(
-            "contact pressure on the flanks", pressure, "<=",
-            PRESSURE_OVER_ULTIMATE * ultimate.value, "Pa",
-            source=f"Hertz, line contact; {PRESSURE_OVER_ULTIMATE} x tensile strength is a rule of "
-            f"thumb; {same}", otherwise="warn", remedy="raise envelope.thickness or flexures.count",
-        )  # fmt: skip
+    limit, words = pressure_limit(spring.spec.material.values)
+    pressure = max(float(stroke.pressure.max()) for stroke in spring.strokes)
+    yield check(
+        "contact pressure on the flanks", pressure, "<=", limit, "Pa",
+        source=f"Hertz, line contact; {words}; {same}", otherwise="warn",
+        remedy="raise envelope.thickness or flexures.count",
+    )  # fmt: skip
     yield check(
         "interference of camshaft and tips in the stroke", camshaft.overlap, "<=",
         CAM_INTERFERENCE, "m", source="deformed tips against the teeth, at every angle solved",
