@@ -10,7 +10,7 @@ from springcad.kinds.rotary_flexure.candidates import candidates, range_checks
 from springcad.kinds.rotary_flexure.climbing import Build, Climb, Design
 from springcad.result import Progress
 
-LESS = (0.9, 0.8, 0.65, 0.5)
+LESS = (0.9, 0.8, 0.65, 0.5, 0.35, 0.25)
 """Shares of the deflection that are tried, the mildest first."""
 
 
