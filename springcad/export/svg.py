@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from springcad.export.svg_cells import (
@@ -33,15 +34,20 @@ _BETWEEN_ROWS = 6.0
 _HEADER = 12.0
 _FOOTER = 5.0
 _TITLE_SIZE = 4.2
-_VIEWS_WIDTH = 281.0
-"""Views go on in a new row when they would be wider than this, that of A4, or the parts (mm)."""
+_PAGE_WIDTH = 281.0
+"""That of A4 (mm). Views go on in a new row when they would be wider than this, the parts, or a
+sheet of ``_SHAPE``."""
+_SHAPE = 1.4
+"""Width over height that many or large views should take, about."""
 
 
 def result_to_svg(result: Result) -> str:
     """The drawing as SVG text; width and height are the true size in millimetres."""
     parts = [part_cell(part, result.name) for part in result.parts]
-    widest = max(_row_width(parts), _VIEWS_WIDTH)
-    rows = [parts, *_rows([view_cell(view) for view in result.views], widest)]
+    views = [view_cell(view) for view in result.views]
+    area = sum((cell.width + _BETWEEN) * (cell.height + CAPTION) for cell in (*parts, *views))
+    widest = max(_row_width(parts), _PAGE_WIDTH, math.sqrt(_SHAPE * area))
+    rows = [parts, *_rows(views, widest)]
     heights = [max((cell.height for cell in row), default=0.0) for row in rows]
     title_width = max(text_width(result.name, _TITLE_SIZE), 100.0)
     width = max(title_width, *map(_row_width, rows)) + 2.0 * _MARGIN
