@@ -52,7 +52,7 @@ def _smaller_deflection(aim: Aim, build: Build, progress: Progress) -> tuple[str
         target = aim.spec.target.model_copy(update={"deflection": math.radians(degrees)})
         milder = Aim.of(aim.spec.model_copy(update={"target": target}))
         tried = Climb(milder, build, lambda _: None)
-        tried.straight(candidates(milder)[:1])
+        tried.straight([ring for ring in candidates(milder) if ring.has_straight][:1])
         if tried.best is not None:
             return (
                 f"lower target.deflection from {math.degrees(wanted):.4g} to {degrees:g} deg: "

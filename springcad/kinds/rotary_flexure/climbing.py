@@ -132,12 +132,15 @@ class Climb:
 
     def straight(self, rings: Iterable[Candidate]) -> None:
         """Design the rings at the level of straight flexures while that beats the best."""
-        left = STRAIGHT_DESIGNS
+        left, tried = STRAIGHT_DESIGNS, {(design.pair, design.level) for design in self.designs}
         for ring in rings:
-            if left == 0 or not ring.has_straight or not self._may_win(ring.pair, ring.straight):
+            if left == 0:
                 return
-            if self._is_weak(ring.pair) or any(
-                (d.pair, d.level) == (ring.pair, ring.straight) for d in self.designs
+            if (
+                not ring.has_straight
+                or not self._may_win(ring.pair, ring.straight)
+                or self._is_weak(ring.pair)
+                or (ring.pair, ring.straight) in tried
             ):
                 continue
             left -= 1
