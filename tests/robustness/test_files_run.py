@@ -163,7 +163,7 @@ def test_a_kill_while_writing_leaves_whole_files(run_with_fake_kind: Run, tmp_pa
     assert set(contents(out)) == set(whole)
 
 
-def same_bytes_everywhere(run: Run, spec: Path, tmp_path: Path) -> dict[str, bytes]:
+def same_bytes_everywhere(run: Run, spec: Path, tmp_path: Path, *options: str) -> dict[str, bytes]:
     """Design ``spec`` twice in surroundings that differ in all that should not matter.
 
     Numbers do not depend on the threads of the libraries either.
@@ -176,6 +176,7 @@ def same_bytes_everywhere(run: Run, spec: Path, tmp_path: Path) -> dict[str, byt
     first = run(
         "design",
         spec,
+        *options,
         "-o",
         "out",
         cwd=here,
@@ -184,6 +185,7 @@ def same_bytes_everywhere(run: Run, spec: Path, tmp_path: Path) -> dict[str, byt
     second = run(
         "design",
         os.path.relpath(spec, there),
+        *options,
         "-o",
         there / "elsewhere",
         cwd=there,
@@ -208,5 +210,7 @@ def test_the_same_spec_gives_the_same_bytes(run_with_fake_kind: Run, tmp_path: P
 
 @pytest.mark.slow
 def test_a_real_design_gives_the_same_bytes(run_springcad: Run, tmp_path: Path) -> None:
-    files = same_bytes_everywhere(run_springcad, ROOT / "specs" / "S2.yaml", tmp_path)
+    """Of S2 without its second opinion: search, beam and the finite elements of root and teeth."""
+    spec = ROOT / "specs" / "S2.yaml"
+    files = same_bytes_everywhere(run_springcad, spec, tmp_path, "--no-verify")
     assert {Path(name).suffix for name in files} == {".dxf", ".svg", ".html", ".json"}
