@@ -59,9 +59,11 @@ def reaction(printed: str, deck: str, name: str) -> np.ndarray:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "largest"), [("parabolic", 10.0), ("triangular", 8.0)])
+@pytest.mark.parametrize(
+    ("name", "largest", "bound"), [("parabolic", 10.0, 1e-4), ("triangular", 8.0, 3e-4)]
+)
 def test_calculix_bends_a_straight_leaf_with_the_same_force(
-    require_tool: Callable[[str], str], tmp_path: Path, name: str, largest: float
+    require_tool: Callable[[str], str], tmp_path: Path, name: str, largest: float, bound: float
 ) -> None:
     """The triangle's elements differ in width: each column has a section of its mean width."""
     program = require_tool("ccx")
@@ -72,7 +74,7 @@ def test_calculix_bends_a_straight_leaf_with_the_same_force(
     known = findings(deck, 3)
     np.testing.assert_allclose(known[:, 1], largest * np.array([0.25, 0.5, 0.75, 1.0]))
     across = reaction(last_prints(program, deck, tmp_path / "ccx"), deck, "PIN")[1]
-    assert across == pytest.approx(known[-1, 2], rel=3e-4)
+    assert across == pytest.approx(known[-1, 2], rel=bound)
 
 
 def written(leaf: OmegaLeaf, case: OmegaCase) -> WrittenDesign:
