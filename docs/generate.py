@@ -224,14 +224,23 @@ PASSAGES: dict[str, Callable[[], str]] = {
 def with_output(text: str, *, fast: bool = False) -> str:
     """``text`` with what each command of it prints; with ``fast`` nothing is designed."""
     with TemporaryDirectory(prefix="springcad-docs-") as folder:
-        Path(folder, "specs").symlink_to(ROOT / "specs")
-        session = _Session(Path(folder), fast)
-        return _CONSOLE.sub(session.renewed, text)
+        return with_output_in(Path(folder), text, fast=fast)
+
+
+def with_output_in(folder: Path, text: str, *, fast: bool = False) -> str:
+    """The same in a folder that is given, which is empty before and keeps what was written."""
+    (folder / "specs").symlink_to(ROOT / "specs")
+    return _CONSOLE.sub(_Session(folder, fast).renewed, text)
 
 
 def is_slow(command: str) -> bool:
-    """Whether a command designs something or looks at a design."""
-    return "springcad design" in command or "out/" in command
+    """Whether a command designs something or looks at a design, or at what that printed."""
+    return any(words in command for words in ("springcad design", "out/", "out.txt"))
+
+
+def designs(text: str) -> bool:
+    """Whether a page has a command that is slow."""
+    return any(is_slow(match[3]) for match in _CONSOLE.finditer(text))
 
 
 class _Session:

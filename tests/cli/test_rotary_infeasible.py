@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-import json
 import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from rotary_cases import SPECS, rotary_model
+from rotary_cases import SPECS, rotary_model, spring_of, statuses
 
 from springcad.batch.design_one import Wishes, attempt_design
 from springcad.batch.specs import read_specs
 from springcad.errors import InfeasibleError
+from springcad.kinds.rotary_flexure import design as rotary_design
 from springcad.kinds.rotary_flexure.feasibility import failures
 from springcad.kinds.rotary_flexure.inputs import case_of
 from springcad.kinds.rotary_flexure.straight import straight_alternatives
+from springcad.kinds.rotary_flexure.summary import summarise
+from springcad.spec.source import read_spec
 
 Run = Callable[..., "subprocess.CompletedProcess[str]"]
 NUMBER = r"[0-9.]+(?:e[+-]?[0-9]+)?"
@@ -37,11 +39,11 @@ def design(name: str, *overrides: str, out: Path) -> tuple[int, Exception | None
     return attempt.exit_code, attempt.error
 
 
-FEW_STARTS = "optimiser.starts=2"
+ONE_START = "optimiser.starts=1"
 """Enough for these springs, and what is claimed does not hang on how many there are."""
 
 INFEASIBLE = [
-    ("S4", "flexures.bend_limit=0.1", "searches, of 2, that found a flexure"),
+    ("S4", "flexures.bend_limit=0.1", "searches, of 1, that found a flexure"),
     ("S3", "flexures.min_gap=1.2 mm", "gap between neighbouring flexures"),
     ("S4", "flexures.root_fillet=2 mm", "root fillet that fits between neighbours"),
 ]
@@ -52,15 +54,14 @@ INFEASIBLE = [
 def test_remedies_found_by_searching_work(
     name: str, change: str, claim: str, tmp_path: Path
 ) -> None:
-    code, error = design(name, FEW_STARTS, change, out=tmp_path)
+    code, error = design(name, ONE_START, change, out=tmp_path)
     assert code == 4
     assert isinstance(error, InfeasibleError)
     assert error.claim.startswith(claim)
     assert error.remedies
     assert list(tmp_path.iterdir()) == []
     for remedy in error.remedies:
-        code, error = design(name, FEW_STARTS, change, *overrides_of(remedy), out=tmp_path)
-        assert code in (0, 5), (remedy, error)
+        assert spring_of(name, ONE_START, change, *overrides_of(remedy)).mass > 0.0, remedy
 
 
 CLOSED_FORM = [
@@ -87,8 +88,25 @@ def test_remedies_of_the_closed_forms_pass_every_closed_form(
         assert failures(case) == (), remedy
 
 
+def found_shape(*changes: str) -> bool:
+    """Whether a search finds a shape for a change of S2 that passes every closed form.
+
+    The closed forms are necessary, not sufficient: a search may still find none.
+    """
+    spec = rotary_model("S2", ONE_START, *changes)
+    case = case_of(spec).shifted
+    assert failures(case) == (), changes
+    try:
+        rotary_design.spring_of(spec, case, (), lambda _: None)
+    except InfeasibleError as error:
+        if not error.claim.startswith("searches, of"):
+            raise
+        return False
+    return True
+
+
 def test_too_soft_to_be_straight_is_told_in_one_message(run_springcad: Run, tmp_path: Path) -> None:
-    """f_s < 1: S2's stiffness with 11 deg; and every remedy, applied, is designed."""
+    """f_s < 1: S2's stiffness with 11 deg; every remedy passes the closed forms, one has a shape."""
     run = run_springcad("design", SPECS / "S2.yaml", "--set", "target.deflection=11 deg")
     assert (run.returncode, run.stdout) == (4, "")
     first, *rest = run.stderr.splitlines()
@@ -97,12 +115,8 @@ def test_too_soft_to_be_straight_is_told_in_one_message(run_springcad: Run, tmp_
     assert list(tmp_path.iterdir()) == []
     remedies = [line for line in rest if "to make it feasible: " in line]
     assert remedies == rest
-    for line in rest:
-        changes = ("target.deflection=11 deg", FEW_STARTS, *overrides_of(line))
-        code, error = design("S2", *changes, out=tmp_path / "out")
-        # The closed forms are necessary, not sufficient: a search may still find no shape.
-        assert code in (0, 5) or (code == 4 and "searches, of" in str(error)), line
-    assert (tmp_path / "out").exists()
+    found = [found_shape("target.deflection=11 deg", *overrides_of(line)) for line in rest]
+    assert any(found)
 
 
 def test_a_failed_design_leaves_the_earlier_files_alone(run_springcad: Run, tmp_path: Path) -> None:
@@ -128,25 +142,20 @@ def test_a_tool_too_wide_for_the_camshaft_s_slots_is_refused_before_any_search()
 
 
 @pytest.mark.slow
-def test_straight_alternatives_of_s2_can_be_designed_as_promised(
-    run_springcad: Run, tmp_path: Path
-) -> None:
+def test_straight_alternatives_of_s2_can_be_designed_as_promised() -> None:
     """Advice of the report: count and contact radius for straight flexures, with their stress."""
-    case = case_of(rotary_model("S2"))
-    advice = straight_alternatives(case)
-    run = run_springcad("design", SPECS / "S2.yaml", "-o", "out", "--json", "--no-verify")
-    said = json.loads(run.stdout)["advice"]
+    advice = straight_alternatives(case_of(rotary_model("S2")))
+    said = summarise(read_spec(SPECS / "S2.yaml", ()), spring_of("S2")).advice
     for alternative in advice:
         assert any(str(alternative)[1:] in line for line in said)
-        run = run_springcad(
-            "design", SPECS / "S2.yaml", "-o", "straight", "--json", "--no-verify",
-            "--set", "flexures.style=straight",
-            "--set", f"flexures.count={alternative.count}",
-            "--set", f"envelope.contact_radius={alternative.contact_radius * 1e3:.4g} mm",
-        )  # fmt: skip
-        assert run.returncode == 0, run.stderr
-        report = json.loads(run.stdout)
-        design, response = report["design"], report["response"]
+        changes = (
+            "flexures.style=straight",
+            f"flexures.count={alternative.count}",
+            f"envelope.contact_radius={alternative.contact_radius * 1e3:.4g} mm",
+        )
+        assert "fail" not in statuses("S2", *changes).values()
+        result = summarise(read_spec(SPECS / "S2.yaml", changes), spring_of("S2", *changes))
+        design, response = result.design, result.response
         # The advice is that of a clamped flexure and of small deflections.
         assert response["peak_nominal_stress_Pa"] == pytest.approx(alternative.stress, rel=0.02)
         assert response["peak_local_stress_Pa"] == pytest.approx(
@@ -157,10 +166,10 @@ def test_straight_alternatives_of_s2_can_be_designed_as_promised(
 
 
 def test_warnings_are_0_or_strictly_5_and_a_failed_check_is_5(run_springcad: Run) -> None:
-    """S2 warns of the stress in its fillets; 52 flexures leave S1 too thin a tooth."""
-    command = ("design", SPECS / "S2.yaml", "--no-verify", "--set", FEW_STARTS)
-    s2 = run_springcad(*command)
-    assert (s2.returncode, "WARN" in s2.stdout, "FAIL" in s2.stdout) == (0, True, False)
+    """Small fillets at the roots of S1 are stressed beyond yield; 52 flexures: too thin a tooth."""
+    command = ("design", SPECS / "S1.yaml", "--no-verify", "--set", "flexures.root_fillet=0.2 mm")
+    sharp = run_springcad(*command)
+    assert (sharp.returncode, "WARN" in sharp.stdout, "FAIL" in sharp.stdout) == (0, True, False)
     assert run_springcad(*command, "--strict").returncode == 5
     thin = run_springcad("design", SPECS / "S1.yaml", "--set", "flexures.count=52", "--no-verify")
     assert thin.returncode == 5
