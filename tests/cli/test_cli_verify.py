@@ -11,15 +11,26 @@ import pytest
 SPEC = "springcad: 1\nkind: fake\nname: plate\nsize: 20 mm\nprocess: laser\nbehaviour: {}\n"
 
 
+@pytest.fixture(scope="module")
+def designs() -> dict[tuple[str, ...], Path]:
+    """Behaviour and options → the folder of a design, each made once."""
+    return {}
+
+
 @pytest.fixture
-def design(tmp_path, run_with_fake_kind):
-    """``design("good")``: the folder of a design by the kind of fake_springcad.py."""
+def design(designs, tmp_path, tmp_path_factory, run_with_fake_kind):
+    """``design("good")``: a copy of the folder of a design by the kind of fake_springcad.py."""
 
     def make(behaviour: str, *options: str) -> Path:
-        (tmp_path / "plate.yaml").write_text(SPEC.format(behaviour), encoding="utf-8")
-        run = run_with_fake_kind("design", "plate.yaml", "-o", "out", *options)
-        assert run.returncode == (5 if behaviour == "disagree" and not options else 0), run.stderr
-        return tmp_path / "out/plate"
+        key = (behaviour, *options)
+        if key not in designs:
+            folder = tmp_path_factory.mktemp("design")
+            (folder / "plate.yaml").write_text(SPEC.format(behaviour), encoding="utf-8")
+            run = run_with_fake_kind("design", "plate.yaml", "-o", "out", *options, cwd=folder)
+            disagrees = behaviour == "disagree" and not options
+            assert run.returncode == (5 if disagrees else 0), run.stderr
+            designs[key] = folder / "out/plate"
+        return shutil.copytree(designs[key], tmp_path / "out/plate", dirs_exist_ok=True)
 
     return make
 

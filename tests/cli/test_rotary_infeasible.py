@@ -106,7 +106,7 @@ def found_shape(*changes: str) -> bool:
 
 
 def test_too_soft_to_be_straight_is_told_in_one_message(run_springcad: Run, tmp_path: Path) -> None:
-    """f_s < 1: S2's stiffness with 11 deg; every remedy passes the closed forms, one has a shape."""
+    """f_s < 1: S2's stiffness with 11 deg; all remedies pass the closed forms, one has a shape."""
     run = run_springcad("design", SPECS / "S2.yaml", "--set", "target.deflection=11 deg")
     assert (run.returncode, run.stdout) == (4, "")
     first, *rest = run.stderr.splitlines()
