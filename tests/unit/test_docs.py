@@ -67,13 +67,15 @@ def test_generated_reference_is_current(page: Path) -> None:
     assert markers == [name for _, name, _ in docs._GENERATED.findall(text)]
 
 
-def _pages_with_commands() -> Iterator[Any]:
+def _pages_with_commands() -> list[Any]:
     """Every page with a command but the README; what designs something is slow."""
+    found = []
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         if "```console" in text and page != README:
             marks = [pytest.mark.slow] if docs.designs(text) else []
-            yield pytest.param(page, id=_id(page), marks=marks)
+            found.append(pytest.param(page, id=_id(page), marks=marks))
+    return found
 
 
 @pytest.mark.parametrize("page", _pages_with_commands())
