@@ -91,7 +91,8 @@ def mm(length: float) -> str:
     return f"{1e3 * length:.7g} mm"
 
 
-SEEDS = range(12, 18)
+SEEDS = range(14, 22)
+"""Among them every outcome: designed, refused by closed forms and by searches, a failed check."""
 
 
 def attempt(seed: int, folder: Path) -> tuple[int, str]:
