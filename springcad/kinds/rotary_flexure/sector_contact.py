@@ -20,7 +20,8 @@ from springcad.kinds.rotary_flexure.clearance import polygon_gap
 from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
 from springcad.kinds.rotary_flexure.flexure_contact import global_points
 from springcad.kinds.rotary_flexure.root_compliance import sector_supports
-from springcad.kinds.rotary_flexure.sector_mesh import FINE, sector_mesh
+from springcad.kinds.rotary_flexure.sector_blocks import FINE
+from springcad.kinds.rotary_flexure.sector_mesh import sector_mesh
 from springcad.kinds.rotary_flexure.written_spring import WrittenSpring, plain_stations
 from springcad.mechanics.contact import contact_modulus
 from springcad.mechanics.fem.assembly import prepare_solid
