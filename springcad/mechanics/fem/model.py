@@ -41,6 +41,7 @@ class State:
         energy: strain energy [J].
         contact: contact forces, pressure and gap; None without contact.
         iterations: Newton iterations spent on this load, on its last part if it was cut.
+        path: the states before it on the same path, the last two at most, without theirs.
     """
 
     load: Load
@@ -49,6 +50,7 @@ class State:
     energy: float
     contact: ContactState | None
     iterations: int
+    path: tuple[State, ...] = ()
 
 
 @dataclass(frozen=True)
