@@ -37,10 +37,10 @@ def foresee(model: Model, last: State, target: Load) -> Expected | None:
         contacts = [state.contact for state in states if state.contact is not None]
         if len(contacts) < len(states):
             return None
-        pressure = sum_of(shares, [contact.pressure for contact in contacts])
+        pressure = _weighted_sum(shares, [contact.pressure for contact in contacts])
     return Expected(
-        sum_of(shares, [state.displacement for state in states]),
-        sum_of(shares, [deformation(model.solid, s.displacement).strain for s in states]),
+        _weighted_sum(shares, [state.displacement for state in states]),
+        _weighted_sum(shares, [deformation(model.solid, s.displacement).strain for s in states]),
         np.maximum(pressure, 0.0),
     )
 
@@ -70,5 +70,5 @@ def _lagrange(places: Floats) -> Floats:
     return np.asarray(np.prod(np.where(others, (1.0 - places) / gaps, 1.0), axis=1))
 
 
-def sum_of(shares: Floats, values: list[Floats]) -> Floats:
+def _weighted_sum(shares: Floats, values: list[Floats]) -> Floats:
     return np.asarray(np.tensordot(shares, np.stack(values), 1))
