@@ -6,7 +6,6 @@ import gc
 import os
 import sys
 
-
 _COLLECTED_AFTER = 50_000
 """New objects between two searches of the garbage collector."""
 
