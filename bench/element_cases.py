@@ -15,8 +15,9 @@ from stopwatch import best_time
 
 from springcad.kinds.rotary_flexure.deck import sector_deck
 from springcad.kinds.rotary_flexure.root_compliance import sector_supports
+from springcad.kinds.rotary_flexure.sector_blocks import FINE
 from springcad.kinds.rotary_flexure.sector_contact import sector_contact, turn_through
-from springcad.kinds.rotary_flexure.sector_mesh import FINE, sector_mesh
+from springcad.kinds.rotary_flexure.sector_mesh import sector_mesh
 from springcad.kinds.rotary_flexure.written_spring import WrittenSpring, written_spring
 from springcad.mechanics.fem.assembly import edge_load, prepare_solid
 from springcad.mechanics.fem.deck import slice_deck

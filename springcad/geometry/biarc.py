@@ -16,9 +16,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from springcad.geometry.outline import Arc, Circle, Contour, Curve, Floats, Line, Outline, Piece
 from springcad.geometry.polyline import BulgePolyline
+
+ComplexPoints = NDArray[np.complex128]
 
 DEFAULT_TOLERANCE = 2e-6
 """Largest deviation of fitted arcs from a curve (m)."""
@@ -40,24 +43,23 @@ class _Chain:
 
 
 def biarc_joints(
-    start: Floats, start_tangent: Floats, end: Floats, end_tangent: Floats
-) -> tuple[Floats, Floats]:
-    """Joint (N, 2) and unit tangent (N, 2) there of the biarcs between N pairs of points.
+    start: ComplexPoints,
+    start_tangent: ComplexPoints,
+    end: ComplexPoints,
+    end_tangent: ComplexPoints,
+) -> tuple[ComplexPoints, ComplexPoints]:
+    """Joints, and unit tangents there, of the biarcs between pairs of points.
 
-    All arguments are (N, 2); the tangents are unit vectors. Where the ends ask for two half
-    circles (equal tangents across the chord) there is no such biarc and the result is not finite.
+    Points and unit tangents x + i y, of any one shape. Where the ends ask for two half circles
+    (equal tangents across the chord) there is no such biarc and the result is not finite.
     """
-    v = end - start
-    total = start_tangent + end_tangent
-    along = np.sum(v * total, axis=1)
-    squared = np.sum(v * v, axis=1)
+    v, total, apart = end - start, start_tangent + end_tangent, start_tangent - end_tangent
+    along, squared = (v.conj() * total).real, (v.conj() * v).real
     # 1 - t0·t1 = |t0 - t1|²/2, without cancellation; this form of the root is exact at t0 = t1.
-    spread = np.sum((start_tangent - end_tangent) ** 2, axis=1)
+    spread = (apart.conj() * apart).real
     with np.errstate(divide="ignore", invalid="ignore"):
-        d = (squared / (along + np.sqrt(along**2 + spread * squared)))[:, None]
-        joint = 0.5 * (start + end + d * (start_tangent - end_tangent))
-        tangent = (v - d * total) / (2.0 * d)
-    return joint, tangent
+        d = squared / (along + np.sqrt(along**2 + spread * squared))
+        return 0.5 * (start + end + d * apart), (v - d * total) / (2.0 * d)
 
 
 def arc_bulges(start: Floats, tangent: Floats, end: Floats) -> Floats:
@@ -189,19 +191,27 @@ def _fitted_chain(piece: Piece, tolerance: float) -> _Chain:
 
 def _biarc_chain(points: Floats, tangents: Floats) -> _Chain:
     """Two arcs between each two neighbours of N points: 2 N - 1 vertices."""
-    vertices, headings = _with_joints(points, tangents)
+    vertices, headings = (_as_pairs(z) for z in _with_joints(points, tangents))
     return _Chain(vertices, arc_bulges(vertices[:-1], headings[:-1], vertices[1:]))
 
 
-def _with_joints(points: Floats, tangents: Floats) -> tuple[Floats, Floats]:
-    """The N points and the joints of the biarcs between them, (2 N - 1, 2), with tangents."""
-    vertices = np.empty((2 * len(points) - 1, 2))
+def _with_joints(points: Floats, tangents: Floats) -> tuple[ComplexPoints, ComplexPoints]:
+    """The N points and the joints of the biarcs between them, (2 N - 1,), with tangents."""
+    vertices = np.empty(2 * len(points) - 1, dtype=np.complex128)
     headings = np.empty_like(vertices)
-    vertices[0::2], headings[0::2] = points, tangents
+    vertices[0::2], headings[0::2] = _as_complex(points), _as_complex(tangents)
     vertices[1::2], headings[1::2] = biarc_joints(
-        points[:-1], tangents[:-1], points[1:], tangents[1:]
+        vertices[:-1:2], headings[:-1:2], vertices[2::2], headings[2::2]
     )
     return vertices, headings
+
+
+def _as_complex(points: Floats) -> ComplexPoints:
+    return points[:, 0] + 1j * points[:, 1]
+
+
+def _as_pairs(points: ComplexPoints) -> Floats:
+    return np.column_stack([points.real, points.imag])
 
 
 def _without_needless_joints(points: Floats, tangents: Floats) -> _Chain:
@@ -241,7 +251,7 @@ def _knots(curve: Curve, tolerance: float) -> tuple[Floats, Floats]:
         else:
             front.append(ahead)
     knots = front + back[::-1]
-    return points[knots], headings[knots]
+    return _as_pairs(points[knots]), _as_pairs(headings[knots])
 
 
 def _reach(fits: Callable[[int, int], bool], origin: int, limit: int) -> int:
@@ -262,28 +272,26 @@ def _reach(fits: Callable[[int, int], bool], origin: int, limit: int) -> int:
     return origin + step * good
 
 
-def _deviation(points: Floats, headings: Floats) -> float:
+def _deviation(points: ComplexPoints, headings: ComplexPoints) -> float:
     """Largest distance of the points of a stretch from the biarc between its ends; inf if none.
 
     The stretch must nowhere turn by 90° or more from the direction at the joint: it and the biarc
     are then two graphs over the same axis and this distance is the distance both ways.
     """
-    ends = points[[0]], headings[[0]], points[[-1]], headings[[-1]]
-    joint, direction = biarc_joints(*ends)
-    if not np.isfinite(joint).all() or np.min(headings @ direction[0]) <= 0.0:
+    start, end = points[0], points[-1]
+    joint, direction = biarc_joints(start, headings[0], end, headings[-1])
+    if not np.isfinite(joint) or (headings * direction.conj()).real.min() <= 0.0:
         return np.inf
-    offset = points - joint
-    along, across = offset @ direction[0], offset @ np.array([-direction[0, 1], direction[0, 0]])
-    before = _curvature(ends[0], ends[1], joint)
-    after = _curvature(joint, direction, ends[2])
+    local = (points - joint) * direction.conj()
+    along, across = local.real, local.imag
+    before, after = _curvature(start, headings[0], joint), _curvature(joint, direction, end)
     curvature = np.where(along < 0.0, before, after)
     # Distance from the circle through the joint, in a form that is exact for a straight line.
     bent = curvature * (along**2 + across**2) - 2.0 * across
     root = np.sqrt(np.maximum(1.0 + curvature * bent, 0.0))
-    return float(np.max(np.abs(bent) / (1.0 + root)))
+    return float((np.abs(bent) / (1.0 + root)).max())
 
 
-def _curvature(start: Floats, tangent: Floats, end: Floats) -> float:
-    chord = (end - start)[0]
-    cross = tangent[0, 0] * chord[1] - tangent[0, 1] * chord[0]
-    return float(2.0 * cross / (chord @ chord))
+def _curvature(start: ComplexPoints, tangent: ComplexPoints, end: ComplexPoints) -> Floats:
+    chord = end - start
+    return 2.0 * (tangent.conj() * chord).imag / (chord.conj() * chord).real

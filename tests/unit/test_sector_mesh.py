@@ -16,7 +16,8 @@ from springcad.geometry.panels import panel_grid
 from springcad.geometry.ribbon import ORDER, Ribbon
 from springcad.geometry.transform import rotate, translate
 from springcad.kinds.rotary_flexure.ring import flexure_pieces, largest_fillet
-from springcad.kinds.rotary_flexure.sector_mesh import COARSE, FINE, sector_mesh
+from springcad.kinds.rotary_flexure.sector_blocks import COARSE, FINE
+from springcad.kinds.rotary_flexure.sector_mesh import sector_mesh
 from springcad.kinds.rotary_flexure.sector_skeleton import SectorGeometry
 from springcad.mechanics.fem.blocks import mesh_area, smallest_scaled_jacobian
 from springcad.mechanics.fem.mesh import Mesh

@@ -18,7 +18,8 @@ from rotary_cases import spring_of
 from sector_cases import sector_of
 
 from springcad.kinds.rotary_flexure.root_compliance import sector_supports
-from springcad.kinds.rotary_flexure.sector_mesh import COARSE, sector_mesh
+from springcad.kinds.rotary_flexure.sector_blocks import COARSE
+from springcad.kinds.rotary_flexure.sector_mesh import sector_mesh
 from springcad.mechanics.fem.assembly import Sheet, edge_load, prepare_solid
 from springcad.mechanics.fem.blocks import smallest_scaled_jacobian
 from springcad.mechanics.fem.constraints import Equations, solve_constraints, tie

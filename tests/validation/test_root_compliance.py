@@ -25,7 +25,8 @@ from springcad.kinds.rotary_flexure.root_compliance import (
     sector_supports,
     surface_stress,
 )
-from springcad.kinds.rotary_flexure.sector_mesh import COARSE, FINE, Density, sector_mesh
+from springcad.kinds.rotary_flexure.sector_blocks import COARSE, FINE, Density
+from springcad.kinds.rotary_flexure.sector_mesh import sector_mesh
 from springcad.kinds.rotary_flexure.sector_skeleton import SectorGeometry
 from springcad.kinds.rotary_flexure.shape import straight_ribbon
 from springcad.mechanics.beam import PreparedBeam, follower_load, prepare, unloaded_points

@@ -50,7 +50,7 @@ def moved_contact(name: str, offset: float, outward: float) -> SectorContact:
     )
     contact = sector_contact(replace(spring, sector=sector), 1)
     flank = drawn_flank(spring.camshaft, 1)
-    slope = flank.slope(flank.places)
+    slope = flank.curve(flank.places, 1)
     tangents = slope / np.hypot(*slope.T)[:, None]
     free = np.column_stack([tangents[:, 1], -tangents[:, 0]])
     profile = rigid_profile(flank.points + offset * free + [outward, 0.0], tangents)

@@ -20,7 +20,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 Floats = NDArray[np.float64]
 StraightShape = Literal["constant", "triangular", "parabolic"]
@@ -146,6 +145,8 @@ def _plan(leaf: StraightLeaf) -> Plan:
 
     if not (beside_eye(0.0) < 0.0 < beside_eye(0.5 * length) and before_clamp(0.5 * length) < 0.0):
         raise ValueError("the leaf is too short for its eye and its fillets")
+    from scipy.optimize import brentq  # what a check of a spec does not need is not loaded for it
+
     start = float(brentq(beside_eye, 0.0, 0.5 * length, xtol=1e-15))
     end = float(brentq(before_clamp, 0.5 * length, length, xtol=1e-15))
     at_eye, at_root = center(start, size.eye_fillet), center(end, size.root_fillet)

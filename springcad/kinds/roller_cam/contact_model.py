@@ -20,7 +20,7 @@ from springcad.kinds.roller_cam.element import ElementGeometry
 from springcad.kinds.roller_cam.element_mesh import FINE, Density
 from springcad.kinds.roller_cam.joint import Roller
 from springcad.mechanics.fem.contact import prepare_contact
-from springcad.mechanics.fem.model import Load, Model, State, prepare_model
+from springcad.mechanics.fem.model import Load, Model, State, with_contact
 from springcad.mechanics.fem.newton import NoEquilibriumError, solve_path
 from springcad.mechanics.fem.recovery import edge_points, edge_stress
 from springcad.mechanics.fem.rigid_profile import RigidProfile, rigid_profile
@@ -74,7 +74,7 @@ def element_contact(
         points_per_edge=_CONTACT_POINTS,
         augmentations=1,
     )
-    return ElementContact(geometry, roller, prepare_model(held.solid, held.constraints, contact))
+    return ElementContact(geometry, roller, with_contact(held, contact))
 
 
 def press_through(element: ElementContact, angles: Sequence[float]) -> list[Press]:

@@ -16,7 +16,7 @@ from springcad.kinds.rotary_flexure.sector_contact import (
     contact_pressure,
     fillet_stress,
     neighbour_gap,
-    sector_contact,
+    sector_contacts,
     side_stress,
     torque,
     turn_through,
@@ -77,7 +77,7 @@ def judge_spring(written: WrittenDesign, progress: Progress) -> Judgement:
     assumptions = (*ASSUMPTIONS, *([ROOT_ASSUMPTION] if rooted else []))
     spring = written_spring(written)
     try:
-        sectors = [sector_contact(spring, direction) for direction in WAYS]
+        sectors = sector_contacts(spring)
     except ValueError as error:
         return Judgement(METHOD, (), (_no_mesh(str(error)),), assumptions, {})
     strokes = []

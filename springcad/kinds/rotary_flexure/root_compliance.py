@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.judging import snapped
-from springcad.kinds.rotary_flexure.sector_mesh import COARSE, Density, sector_mesh
+from springcad.kinds.rotary_flexure.sector_blocks import COARSE, Density
+from springcad.kinds.rotary_flexure.sector_mesh import sector_mesh
 from springcad.kinds.rotary_flexure.sector_skeleton import SectorGeometry
 from springcad.mechanics.beam import PreparedBeam, follower_load
 from springcad.mechanics.fem.assembly import Sheet, edge_load, prepare_solid

@@ -8,7 +8,7 @@ spring, no point of contact, no torque law.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,14 +20,15 @@ from springcad.kinds.rotary_flexure.clearance import polygon_gap
 from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
 from springcad.kinds.rotary_flexure.flexure_contact import global_points
 from springcad.kinds.rotary_flexure.root_compliance import sector_supports
-from springcad.kinds.rotary_flexure.sector_mesh import FINE, sector_mesh
+from springcad.kinds.rotary_flexure.sector_blocks import FINE
+from springcad.kinds.rotary_flexure.sector_mesh import sector_mesh
 from springcad.kinds.rotary_flexure.written_spring import WrittenSpring, plain_stations
 from springcad.mechanics.contact import contact_modulus
 from springcad.mechanics.fem.assembly import prepare_solid
 from springcad.mechanics.fem.contact import prepare_contact
 from springcad.mechanics.fem.element import edge_shape_functions
 from springcad.mechanics.fem.mesh import Mesh
-from springcad.mechanics.fem.model import Load, Model, State, prepare_model
+from springcad.mechanics.fem.model import Load, Model, State, prepare_model, with_contact
 from springcad.mechanics.fem.newton import NoEquilibriumError, solve_path
 from springcad.mechanics.fem.pad import pad_pressure
 from springcad.mechanics.fem.recovery import edge_stress
@@ -76,20 +77,32 @@ class Turn:
 
 
 def sector_contact(spring: WrittenSpring, direction: int) -> SectorContact:
-    """Mesh, supports and frictionless contact.
+    """Mesh, supports and frictionless contact of one direction.
 
     Raises:
         ValueError: the sector has no valid mesh.
         IncompleteDesignError: the drawing of the camshaft has no tooth spaces.
     """
+    (sector,) = sector_contacts(spring, [direction])
+    return sector
+
+
+def sector_contacts(
+    spring: WrittenSpring, directions: Collection[int] = WAYS
+) -> list[SectorContact]:
+    """``sector_contact`` of several directions, on one mesh."""
     mesh = sector_mesh(spring.sector, FINE)
     solid = prepare_solid(mesh, spring.sheet)
-    profile = drawn_flank(spring.camshaft, direction)
-    edges = "contact_left" if direction > 0 else "contact_right"
-    penalty = PENALTY * spring.sheet.elastic_modulus / spring.tip_half_thickness
-    contact = prepare_contact(solid, edges, profile, penalty)
     supports = sector_supports(mesh, spring.sector.count, spring.mounting)
-    return SectorContact(spring, direction, profile, prepare_model(solid, supports, contact))
+    held = prepare_model(solid, supports)
+    penalty = PENALTY * spring.sheet.elastic_modulus / spring.tip_half_thickness
+    sectors = []
+    for direction in directions:
+        profile = drawn_flank(spring.camshaft, direction)
+        edges = "contact_left" if direction > 0 else "contact_right"
+        contact = prepare_contact(solid, edges, profile, penalty)
+        sectors.append(SectorContact(spring, direction, profile, with_contact(held, contact)))
+    return sectors
 
 
 def turn_through(sector: SectorContact, angles: Sequence[float]) -> list[Turn]:

@@ -138,40 +138,39 @@ def internal_force(solid: Solid, state: Deformation) -> Floats:
 
 
 def stiffness_blocks(solid: Solid, state: Deformation, stresses: Floats) -> Floats:
-    """Element stiffness ∂²W/∂u² [N/m] as its blocks (xx, xy, yy): (3, E, 8, 8).
+    """Element stiffness ∂²W/∂u² [N/m], (E, 8, 3, 8): for every node its blocks (xx, xy, yy).
 
     ``stresses`` (3, E, G) enter the geometric part; ``stress`` of the strain of ``state`` for the
     exact second derivative.
     """
     count, points = solid.weights.shape
     lam, mu = solid.sheet.lame
-    w = solid.weights
     f = state.gradient.reshape(2, 2, count, points)
     left = f[0, 0] * f[:, 0] + f[0, 1] * f[:, 1], f[1, 0] * f[:, 0] + f[1, 1] * f[:, 1]
     sxx, syy, sxy = stresses
     second = ((sxx, sxy), (sxy, syy))
-    test = solid.gradients.reshape(count, 2 * points, 8).transpose(0, 2, 1)
-    trial = (solid.gradients[:, :, 0], solid.gradients[:, :, 1])
-    blocks = np.empty((3, count, 8, 8))
-    product = np.empty((count, points, 2, 8))
+    moduli = np.empty((count, points, 2, 3, 2))
     for block, (i, j) in enumerate(((0, 0), (0, 1), (1, 1))):
         for k in range(2):
-            # ∂P_iK/∂F_jL = λ̄ F_iK F_jL + μ (F_iL F_jK + b_ij δ_KL) + S_KL δ_ij, b = F Fᵀ
-            moduli = [lam * f[i, k] * f[j, m] + mu * f[i, m] * f[j, k] for m in range(2)]
-            moduli[k] = moduli[k] + mu * left[i][j]
-            if i == j:
-                moduli = [moduli[m] + second[k][m] for m in range(2)]
-            product[:, :, k] = (w * moduli[0])[..., None] * trial[0]
-            product[:, :, k] += (w * moduli[1])[..., None] * trial[1]
-        np.matmul(test, product.reshape(count, 2 * points, 8), out=blocks[block])
-    return blocks
+            for m in range(2):
+                # ∂P_iK/∂F_jL = λ̄ F_iK F_jL + μ (F_iL F_jK + b_ij δ_KL) + S_KL δ_ij, b = F Fᵀ
+                modulus = lam * f[i, k] * f[j, m] + mu * f[i, m] * f[j, k]
+                if k == m:
+                    modulus += mu * left[i][j]
+                if i == j:
+                    modulus += second[k][m]
+                moduli[:, :, k, block, m] = solid.weights * modulus
+    nominal = moduli.reshape(count, points, 6, 2) @ solid.gradients
+    test = solid.gradients.reshape(count, 2 * points, 8).transpose(0, 2, 1)
+    return (test @ nominal.reshape(count, 2 * points, 24)).reshape(count, 8, 3, 8)
 
 
 def block_product(solid: Solid, blocks: Floats, vector: Floats) -> Floats:
     """The assembled stiffness of ``stiffness_blocks`` times a vector (2 N,)."""
     nodal = vector.reshape(-1, 2)[solid.mesh.elements][..., None]
-    x = blocks[0] @ nodal[:, :, 0] + blocks[1] @ nodal[:, :, 1]
-    y = blocks[1].transpose(0, 2, 1) @ nodal[:, :, 0] + blocks[2] @ nodal[:, :, 1]
+    xx, xy, yy = blocks.transpose(2, 0, 1, 3)
+    x = xx @ nodal[:, :, 0] + xy @ nodal[:, :, 1]
+    y = xy.transpose(0, 2, 1) @ nodal[:, :, 0] + yy @ nodal[:, :, 1]
     return _sum_at_nodes(solid.mesh, np.concatenate([x, y], axis=2))
 
 

@@ -12,8 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
-from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded, solve_banded
 from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+from springcad.mechanics.fem.stairs import Stair, find_stairs, places, storage
+from springcad.mechanics.fem.stairs import solve as solve_stairs
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -30,14 +32,14 @@ class Scatter:
 
 @dataclass(frozen=True)
 class Pattern:
-    """Numbering of the m free unknowns: ``place`` (m,) in the band, ``width`` below the diagonal.
+    """Numbering of the m free unknowns: ``place`` (m,) in the band, and the stairs of the band.
 
     ``transform`` (2 N, m) takes free unknowns to displacements.
     """
 
     transform: sparse.csr_array[np.float64]
     place: Indices
-    width: int
+    stairs: tuple[Stair, ...]
 
 
 def number_unknowns(transform: sparse.csr_array[np.float64], elements: Indices) -> Pattern:
@@ -54,22 +56,21 @@ def number_unknowns(transform: sparse.csr_array[np.float64], elements: Indices) 
     place = np.empty(free, dtype=np.intp)
     place[order] = np.arange(free)
     entries = graph.tocoo()
-    width = int(np.max(np.abs(place[entries.row] - place[entries.col]), initial=0))
-    return Pattern(transform, place, width)
+    return Pattern(transform, place, find_stairs(place[entries.row], place[entries.col], free))
 
 
 def scatter(pattern: Pattern, rows: Indices, columns: Indices, source: Indices) -> Scatter:
     """Where entries of a symmetric matrix go: ``source[i]`` belongs to (rows[i], columns[i]).
 
-    All entries are given; the band keeps the lower triangle, as ``cholesky_banded`` wants it.
+    All entries are given; the band keeps the lower triangle.
     """
     entry, row, row_factor = _expand(pattern, rows)
     again, column, column_factor = _expand(pattern, columns[entry])
     source, row = source[entry][again], row[again]
     factor = row_factor[again] * column_factor
     lower = row >= column
-    place = (row - column) * len(pattern.place) + column
-    return Scatter(source[lower], factor[lower], place[lower])
+    place = places(pattern.stairs, row[lower], column[lower])
+    return Scatter(source[lower], factor[lower], place)
 
 
 def _expand(pattern: Pattern, components: Indices) -> tuple[Indices, Indices, Floats]:
@@ -87,12 +88,10 @@ def _expand(pattern: Pattern, components: Indices) -> tuple[Indices, Indices, Fl
 
 def gather(pattern: Pattern, parts: list[tuple[Scatter, Floats]]) -> Floats:
     """Add element matrices (any shape, in the order the scatter was made for) up into the band."""
-    size = (pattern.width + 1) * len(pattern.place)
-    band = np.zeros(size)
+    band = np.zeros(storage(pattern.stairs))
     for where, values in parts:
-        weights = values.ravel()[where.source] * where.factor
-        band += np.bincount(where.place, weights, minlength=size)
-    return band.reshape(pattern.width + 1, -1)
+        np.add.at(band, where.place, values.ravel()[where.source] * where.factor)
+    return band
 
 
 def solve(pattern: Pattern, band: Floats, right: Floats) -> Floats:
@@ -105,13 +104,7 @@ def solve(pattern: Pattern, band: Floats, right: Floats) -> Floats:
     """
     ordered = np.empty_like(right)
     ordered[pattern.place] = right
-    try:
-        factor = cholesky_banded(band, lower=True, check_finite=False)
-    except LinAlgError:
-        solution = _solve_indefinite(band, ordered)
-    else:
-        solution = cho_solve_banded((factor, True), ordered, check_finite=False)
-    return np.asarray(solution)[pattern.place]
+    return solve_stairs(pattern.stairs, band, ordered)[pattern.place]
 
 
 def solve_corrected(
@@ -126,22 +119,3 @@ def solve_corrected(
     plain, answers = solution[:, 0], solution[:, 1:]
     inner = np.eye(len(components)) + correction @ (some @ answers)
     return np.asarray(plain - answers @ np.linalg.solve(inner, correction @ (some @ plain)))
-
-
-def _solve_indefinite(band: Floats, right: Floats) -> Floats:
-    """The same by LU, for a lower band and right-hand sides in its order."""
-    width = len(band) - 1
-    try:
-        return np.asarray(solve_banded((width, width), _both_triangles(band), right))
-    except LinAlgError as error:
-        raise ArithmeticError("the stiffness matrix is singular") from error
-
-
-def _both_triangles(lower: Floats) -> Floats:
-    """Lower band of a symmetric matrix to the storage of ``solve_banded``."""
-    width = len(lower) - 1
-    full = np.zeros((2 * width + 1, lower.shape[1]))
-    full[width:] = lower
-    for k in range(1, width + 1):
-        full[width - k, k:] = lower[k, : lower.shape[1] - k]
-    return full

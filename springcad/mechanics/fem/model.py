@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +41,7 @@ class State:
         energy: strain energy [J].
         contact: contact forces, pressure and gap; None without contact.
         iterations: Newton iterations spent on this load, on its last part if it was cut.
+        path: the states before it on the same path, the last two at most, without theirs.
     """
 
     load: Load
@@ -49,6 +50,7 @@ class State:
     energy: float
     contact: ContactState | None
     iterations: int
+    path: tuple[State, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -67,30 +69,27 @@ def prepare_model(solid: Solid, constraints: Constraints, contact: Contact | Non
     """Number the unknowns and find where element and contact matrices go."""
     elements = solid.mesh.elements
     pattern = number_unknowns(constraints.transform, elements)
-    contact_scatter = None
-    if contact is not None:
-        numbers = edge_components(contact)
-        rows, columns = np.repeat(numbers, 6, axis=1).ravel(), np.tile(numbers, (1, 6)).ravel()
-        contact_scatter = scatter(pattern, rows, columns, np.arange(rows.size))
-    return Model(
-        solid,
-        constraints,
-        contact,
-        pattern,
-        scatter(pattern, *_block_entries(elements)),
-        contact_scatter,
-    )
+    where = scatter(pattern, *_block_entries(elements))
+    bare = Model(solid, constraints, None, pattern, where, None)
+    return bare if contact is None else with_contact(bare, contact)
+
+
+def with_contact(model: Model, contact: Contact) -> Model:
+    """A model, numbered already, that touches something else; ``contact`` is of the same solid."""
+    numbers = edge_components(contact)
+    rows, columns = np.repeat(numbers, 6, axis=1).ravel(), np.tile(numbers, (1, 6)).ravel()
+    where = scatter(model.pattern, rows, columns, np.arange(rows.size))
+    return replace(model, contact=contact, contact_scatter=where)
 
 
 def _block_entries(elements: Indices) -> tuple[Indices, ...]:
     """Rows, columns and source entries of the blocks (xx, xy, yy), and of xy transposed."""
-    row = np.broadcast_to(2 * elements[:, :, None], (len(elements), 8, 8)).ravel()
-    column = np.broadcast_to(2 * elements[:, None, :], (len(elements), 8, 8)).ravel()
-    entry = np.arange(row.size)
-    xx, xy, yy = entry, entry + row.size, entry + 2 * row.size
-    rows = np.concatenate([row, row, row + 1, column + 1])
-    columns = np.concatenate([column, column + 1, column + 1, row])
-    return rows, columns, np.concatenate([xx, xy, yy, xy])
+    row = np.broadcast_to(2 * elements[:, :, None], (len(elements), 8, 8))
+    column = row.transpose(0, 2, 1)
+    xx, xy, yy = np.arange(3 * row.size).reshape(len(elements), 8, 3, 8).transpose(2, 0, 1, 3)
+    rows = np.stack([row, row, row + 1, column + 1])
+    columns = np.stack([column, column + 1, column + 1, row])
+    return rows.ravel(), columns.ravel(), np.stack([xx, xy, yy, xy]).ravel()
 
 
 def no_load(model: Model) -> Load:

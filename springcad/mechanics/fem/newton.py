@@ -16,6 +16,7 @@ from springcad.mechanics.fem.assembly import (
 )
 from springcad.mechanics.fem.contact import ContactState, History, first_history
 from springcad.mechanics.fem.contact_tangent import turning_force
+from springcad.mechanics.fem.foresight import foresee
 from springcad.mechanics.fem.model import Load, Model, State, at_edge_nodes, free_part
 from springcad.mechanics.fem.step import Expected, Trial, after, as_is, newton_step, try_at
 
@@ -98,23 +99,37 @@ class _StepError(Exception):
 
 def _solve_step(model: Model, last: State, target: Load, tolerance: float) -> State:
     """One load step, with as many updates of the contact multipliers as the contact asks for."""
-    history = _history(model, last)
-    expected, iterations = _predict(model, last, target, history), 1
+    foreseen = foresee(model, last, target)
+    if foreseen is not None:
+        try:
+            return _solve_from(model, last, target, foreseen, tolerance)
+        except _StepError:
+            pass  # the path bends: contact is made or lost, or begins to stick
+    return _solve_from(model, last, target, _predict(model, last, target), tolerance)
+
+
+def _solve_from(
+    model: Model, last: State, target: Load, expected: Expected, tolerance: float
+) -> State:
+    """The load step from what is expected at its end."""
+    history, iterations = _history(model, last), 0
     for _ in range(1 + (model.contact.augmentations if model.contact else 0)):
         trial, used = _iterate(model, target, history, expected, tolerance)
         iterations, expected = iterations + used, as_is(trial)
         if trial.contact is not None and history is not None:
             history = replace(history, multiplier=trial.contact.history.multiplier)
     energy = strain_energy(model.solid, trial.state)
-    return State(target, trial.displacement, -trial.force, energy, trial.contact, iterations)
+    path = (*last.path, replace(last, path=()))[-2:]
+    return State(target, trial.displacement, -trial.force, energy, trial.contact, iterations, path)
 
 
-def _predict(model: Model, last: State, target: Load, history: History | None) -> Expected:
+def _predict(model: Model, last: State, target: Load) -> Expected:
     """The target linearised at the last state.
 
     Supports and profile are moved through the tangent, not suddenly: contact is neither lost nor
     are the elements at a moved support crushed.
     """
+    history = _history(model, last)
     trial = try_at(model, last.load.force, last.load.rotation, last.displacement, history)
     force, turn = target.force - last.load.force, target.rotation - last.load.rotation
     if model.contact is not None and trial.contact is not None:

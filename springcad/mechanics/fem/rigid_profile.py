@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
 from scipy.spatial import KDTree
 
 Floats = NDArray[np.float64]
@@ -21,15 +21,13 @@ class RigidProfile:
     Attributes:
         places: curve parameter of the points (M,), the chord length from the first [m].
         points: (M, 2) [m], in the frame of the body; the body turns about the origin.
-        curve: place → point; ``slope`` and ``bend`` are its first two derivatives.
+        curve: place → point.
         closed: whether the last point is the first.
     """
 
     places: Floats
     points: Floats
     curve: CubicHermiteSpline
-    slope: PPoly[np.float64]
-    bend: PPoly[np.float64]
     tree: KDTree
     closed: bool
 
@@ -77,9 +75,7 @@ def rigid_profile(points: Floats, tangents: Floats | None = None) -> RigidProfil
         slopes = tangents / np.hypot(*tangents.T)[:, None]
     curve = CubicHermiteSpline(places, points, slopes)
     tree = KDTree(points[:-1] if closed else points)
-    return RigidProfile(
-        places, points, curve, curve.derivative(1), curve.derivative(2), tree, closed
-    )
+    return RigidProfile(places, points, curve, tree, closed)
 
 
 def project(profile: RigidProfile, points: Floats) -> Projection:
@@ -95,8 +91,8 @@ def project(profile: RigidProfile, points: Floats) -> Projection:
     place = profile.places[nearest]
     longest = np.max(np.diff(profile.places))
     for _ in range(_MAX_ITERATIONS):
-        away = flat - profile.curve(place)
-        slope, bend = profile.slope(place), profile.bend(place)
+        foot, slope, bend = _with_derivatives(profile, place)
+        away = flat - foot
         along = np.sum(away * slope, axis=1)
         steepness = np.sum(slope**2, axis=1) - np.sum(away * bend, axis=1)
         step = along / np.where(steepness > 0.1, steepness, 1.0)
@@ -107,8 +103,8 @@ def project(profile: RigidProfile, points: Floats) -> Projection:
         if np.max(np.minimum(change, length - change)) < 1e-14 * length:
             break
 
-    away = flat - profile.curve(place)
-    slope, bend = profile.slope(place), profile.bend(place)
+    foot, slope, bend = _with_derivatives(profile, place)
+    away = flat - foot
     speed = np.hypot(*slope.T)
     tangent = slope / speed[:, None]
     normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1)
@@ -126,3 +122,13 @@ def project(profile: RigidProfile, points: Floats) -> Projection:
         curvature.reshape(shape),
         speed.reshape(shape),
     )
+
+
+def _with_derivatives(profile: RigidProfile, place: Floats) -> tuple[Floats, Floats, Floats]:
+    """Points of the curve at places (P,), and its first two derivatives there, each (P, 2)."""
+    interval = np.searchsorted(profile.places, place, side="right") - 1
+    interval = np.minimum(interval, len(profile.places) - 2)
+    h = (place - profile.places[interval])[:, None]
+    cubic, square, linear, start = profile.curve.c[:, interval]
+    point = start + h * (linear + h * (square + h * cubic))
+    return point, linear + h * (2.0 * square + 3.0 * h * cubic), 2.0 * square + 6.0 * h * cubic
