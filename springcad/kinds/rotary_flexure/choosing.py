@@ -123,7 +123,7 @@ def _considered(
         worse = 0
         for ring in rings:
             leader = best()
-            # Of all that have the one level of the mass, a lighter one may fail where a heavier holds.
+            # All have the one level of the mass: a lighter one may fail where a heavier holds.
             beaten = leader is not None and ring.bound <= leader.level and aim.objective != "mass"
             if ring.pair in found or beaten:
                 continue

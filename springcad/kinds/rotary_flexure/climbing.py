@@ -107,8 +107,9 @@ class Climb:
             or ring.level - self.optimism + DOUBT < least
         ):
             return
-        low, high, fall = least - 1, ring.bound + 1, ring.fall
-        spare, level, step, misses = 0.0, max(least, min(self._start(ring), ring.bound)), 0, 0
+        low, high, spare, fall = least - 1, ring.bound + 1, 0.0, ring.fall
+        level, step, misses = max(least, min(self._start(ring), ring.bound)), 0, 0
+        stop: Stop | None = None
         while low < level < high and misses < MISSES and self.left > 0:
             self.left -= 1
             design = self.designed(ring.pair, level, ring.bound)
@@ -117,24 +118,23 @@ class Climb:
                 fell = (spare - gap) / (level - low) if low >= least else 0.0
                 fall = fell if fell > 0.0 else ring.fall
                 low, spare, misses = level, gap, 0
-                ahead = math.floor(spare / fall) if fall > 0.0 else 1
-                level = min(low + min(max(1, ahead), LONGEST_STEP), max(low + 1, high - 1))
+                level = low + _ahead(high - low, spare, fall, stop)
                 continue
-            high, misses = level, misses + 1
+            high, stop, misses = level, design.stop, misses + 1
             if low >= least:
-                level = low + _between(high - low, spare, design.stop)
+                level = low + _ahead(high - low, spare, fall, stop)
                 continue
             self._learn(ring, design)
-            if design.stop is not None and design.stop.tooth is not None:
-                wider = self._wider(ring, design.stop.tooth)
+            if stop is not None and stop.tooth is not None:
+                wider = self._wider(ring, stop.tooth)
                 if wider is None:
                     return
-                ring, high, fall = wider, wider.bound + 1, wider.fall
+                ring, high, fall, stop = wider, wider.bound + 1, wider.fall, None
                 level = max(least, min(level, self._start(ring)))
-            elif design.stop is not None and "camshaft" in design.stop.claim:
+            elif stop is not None and "camshaft" in stop.claim:
                 return
             else:
-                step = max(2 * step, _back(ring, design.stop))
+                step = max(2 * step, _back(ring, stop))
                 level = max(level - step, ring.straight) if level > ring.straight else low
         if low >= least:
             ahead = spare / fall if fall > 0.0 else 1.0
@@ -248,10 +248,18 @@ class Climb:
         return wider
 
 
-def _between(levels: int, spare: float, stop: Stop | None) -> int:
-    """Levels above one that passes where the gap, with ``spare`` left there, is used up on the way
-    to one that fails so many levels higher; half way where another limit stopped it."""
-    if stop is None or stop.lack is None:
+def _ahead(levels: int, spare: float, fall: float, stop: Stop | None) -> int:
+    """Levels from one that passes, with ``spare`` gap, to the next to be designed.
+
+    Args:
+        levels: up to one that fails, or to the bound.
+        fall: of the gap per level, m.
+        stop: what stopped the one that fails; None where none has been designed.
+    """
+    if stop is None:
+        steps = math.floor(spare / fall) if fall > 0.0 else 1
+        return max(1, min(steps, LONGEST_STEP, levels - 1))
+    if stop.lack is None:
         return levels // 2
     return max(1, math.floor(levels * spare / (spare + stop.lack)))
 
