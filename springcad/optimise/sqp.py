@@ -52,7 +52,7 @@ class Solution:
 class _Parts:
     """The parts of a problem one by one, as SLSQP asks for them, from one evaluation a point."""
 
-    def __init__(self, problem: Problem, values: Problem) -> None:
+    def __init__(self, problem: Problem, values: Problem | None) -> None:
         self._problem = problem
         self._values = values
         self._last: tuple[Floats, Evaluation] | None = None
@@ -64,6 +64,8 @@ class _Parts:
         return self._last[1]
 
     def _values_at(self, variables: Floats) -> Evaluation:
+        if self._values is None:
+            return self._at(variables)
         if self._last is not None and np.array_equal(variables, self._last[0]):
             return self._last[1]
         if self._last_values is None or not np.array_equal(variables, self._last_values[0]):
@@ -112,7 +114,7 @@ def solve(
         tolerance: SLSQP's ``ftol`` on the objective.
     """
     lower, upper = bounds
-    parts = _Parts(problem, values or problem)
+    parts = _Parts(problem, values)
     found, _, iterations, *_ = fmin_slsqp(
         parts.objective,
         np.clip(start, lower, upper).tolist(),

@@ -31,6 +31,19 @@ def test_a_published_problem_is_solved() -> None:
     assert found.violation < 1e-9
 
 
+def test_each_point_is_evaluated_once() -> None:
+    """Values and gradients come together; only the end is looked at again."""
+    points: list[tuple[float, ...]] = []
+
+    def counted(v: np.ndarray) -> Evaluation:
+        points.append(tuple(v))
+        return hock_schittkowski_71(v)
+
+    solve(counted, np.array([1.0, 5.0, 5.0, 1.0]), BOUNDS)
+    assert len(points) > 5
+    assert len(set(points)) >= len(points) - 1
+
+
 def test_the_violation_is_the_largest_broken_constraint() -> None:
     at = hock_schittkowski_71(np.array([1.0, 2.0, 3.0, 4.0]))
     assert at.violation == pytest.approx(10.0)  # 30 - 40; and 24 - 25 for the other one

@@ -10,9 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.kinds.pressure import pressure_limit
+from springcad.kinds.rotary_flexure.clearance import deformed_gaps
+from springcad.kinds.rotary_flexure.full_load import DIRECTIONS, demand_of, loads_of
+from springcad.kinds.rotary_flexure.inputs import target_of
 from springcad.result import Check, check
 
 if TYPE_CHECKING:
+    from springcad.kinds.rotary_flexure.feasibility import Case
+    from springcad.kinds.rotary_flexure.sizing import Sized
+    from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
     from springcad.kinds.rotary_flexure.spring import Spring
 
 Floats = NDArray[np.float64]
@@ -126,15 +132,8 @@ def _flexures(spring: Spring) -> Iterator[Check]:
         "gap between flexures at rest", spring.found.gap, ">=", case.min_gap, "m",
         source="polygons of the flexures; smallest gap wanted",
     )  # fmt: skip
-    asked = spring.spec.flexures.min_deformed_gap
     for stroke in spring.strokes:
-        yield check(
-            f"gap between deformed flexures {_way(stroke.direction)}", float(stroke.gap.min()),
-            ">=", asked or DEFORMED_GAP, "m",
-            source="polygons of the deformed flexures; below 0 they touch",
-            otherwise="fail" if asked or not stroke.gap.min() >= 0.0 else "warn",
-            remedy="lower target.deflection, or raise flexures.min_gap",
-        )  # fmt: skip
+        yield _deformed_gap(spring.spec, stroke.direction, float(stroke.gap.min()))
     yield check(
         "root fillet radius", spring.fillet, ">=", spring.spec.process.rules.min_inside_radius,
         "m", source="smallest inside radius of the process",
@@ -143,6 +142,29 @@ def _flexures(spring: Spring) -> Iterator[Check]:
         "lateral balance: radial over tangential compliance of the tip", _lateral_balance(spring),
         "<=", 0.01, "1", source="small deflections; what makes both directions alike",
         otherwise="warn", remedy="set optimiser.form to curvature, which balances exactly",
+    )  # fmt: skip
+
+
+def full_load_gaps(spec: RotaryFlexureSpec, case: Case, sized: Sized) -> Iterator[Check]:
+    """Gap between the sized flexures in each direction, before there is a camshaft.
+
+    Within micrometres of what the stroke on the drawn camshaft leaves.
+    """
+    inputs, ribbon = case.inputs, sized.found.ribbon
+    demand = demand_of(target_of(spec), inputs.root_radius, inputs.contact_radius, inputs.count)
+    states = loads_of(ribbon, sized.beam, demand)
+    for direction, bent in zip(DIRECTIONS, states, strict=True):
+        gaps = deformed_gaps(ribbon, sized.beam, bent, inputs.root_radius, inputs.count)
+        yield _deformed_gap(spec, direction, float(gaps.min()))
+
+
+def _deformed_gap(spec: RotaryFlexureSpec, direction: int, gap: float) -> Check:
+    asked = spec.flexures.min_deformed_gap
+    return check(
+        f"gap between deformed flexures {_way(direction)}", gap, ">=", asked or DEFORMED_GAP, "m",
+        source="polygons of the deformed flexures; below 0 they touch",
+        otherwise="fail" if asked or not gap >= 0.0 else "warn",
+        remedy="lower target.deflection, or raise flexures.min_gap",
     )  # fmt: skip
 
 

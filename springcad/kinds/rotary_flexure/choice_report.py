@@ -9,10 +9,9 @@ from dataclasses import replace
 import numpy as np
 
 from springcad.kinds.rotary_flexure.aim import Pair
-from springcad.kinds.rotary_flexure.candidates import rounded_up
+from springcad.kinds.rotary_flexure.candidates import forbidden, rounded_up
 from springcad.kinds.rotary_flexure.choosing import Choice
 from springcad.kinds.rotary_flexure.climbing import Design, Stop
-from springcad.kinds.rotary_flexure.feasibility import failures
 from springcad.kinds.rotary_flexure.numbers import bound_of
 from springcad.kinds.rotary_flexure.rim import rim_check
 from springcad.result import Result, Value
@@ -100,7 +99,7 @@ def _fences(choice: Choice) -> Iterator[str]:
 
 
 def _fence(choice: Choice, pair: Pair, words: str) -> Iterator[str]:
-    if failed := failures(choice.aim.at(pair, choice.level).case):
+    if failed := forbidden(choice.aim.at(pair, choice.level)):
         yield f"{words}: {failed[0]}"
 
 

@@ -13,6 +13,7 @@ What is chosen is designed like any other spec: one with the chosen numbers give
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from springcad.kinds.rotary_flexure.aim import Aim, Pair
@@ -20,6 +21,7 @@ from springcad.kinds.rotary_flexure.candidates import (
     Candidate,
     candidate,
     candidates,
+    promise,
     rounded_up,
     worth,
 )
@@ -30,10 +32,11 @@ from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.result import Progress
 
-FIRST = 5
-"""Rings screened before the search goes on around the best of them,"""
-AROUND = 9
-"""and at most so many around it."""
+PATIENCE = 3
+"""Rings screened in turn, none of them better than the best, before the search goes on around it,
+and again before it ends;"""
+MOST = 14
+"""so many at most."""
 COUNT_MOVES = (1.2, 1.08, 1.0 / 1.08)
 RADIUS_MOVES = (1.1, 1.03, 1.0 / 1.03)
 """Steps around the best ring, as factors."""
@@ -115,26 +118,32 @@ def _considered(
         shaped = [ring for ring in found.values() if ring is not None]
         return max(shaped, key=lambda ring: worth(aim, ring.pair, ring.level), default=None)
 
-    def look(ring: Candidate) -> None:
-        leader = best()
-        # Of all that have the one level of the mass, a lighter one may fail where a heavier holds.
-        if aim.objective != "mass" and leader is not None and ring.bound <= leader.level:
-            return
-        found[ring.pair] = screened(aim, ring)
-        progress(f"searching for shapes, ring {len(found)}: {ring.pair}")
+    def look(rings: Iterable[Candidate], *, move_on: bool) -> None:
+        """At one after the other until so many are not better than the best, or one is."""
+        worse = 0
+        for ring in rings:
+            leader = best()
+            # All have the one level of the mass: a lighter one may fail where a heavier holds.
+            beaten = leader is not None and ring.bound <= leader.level and aim.objective != "mass"
+            if ring.pair in found or beaten:
+                continue
+            if worse == PATIENCE or len(found) == MOST:
+                return
+            found[ring.pair] = screened(aim, ring)
+            progress(f"searching for shapes, ring {len(found)}: {ring.pair}")
+            if best() is leader:
+                worse += 1
+            elif move_on:
+                return
+            else:
+                worse = 0
 
-    for ring in allowed:
-        shaped = sum(seen is not None for seen in found.values())
-        if shaped >= FIRST or len(found) >= 2 * FIRST:
-            break
-        look(ring)
-    most, here = len(found) + AROUND, None
+    look(allowed, move_on=False)
+    here = None
     while (leader := best()) is not None and leader is not here:
         here = leader
-        for pair in _around(aim, leader.pair):
-            near = candidate(aim, pair) if pair not in found and len(found) < most else None
-            if near is not None:
-                look(near)
+        near = (candidate(aim, pair) for pair in _around(aim, leader.pair))
+        look(sorted((ring for ring in near if ring is not None), key=promise), move_on=True)
     return tuple(ring for ring in found.values() if ring is not None)
 
 

@@ -34,9 +34,9 @@ STRAIGHT_DESIGNS = 4
 MISSES = 3
 """Designs of one ring that may fail before the next is tried."""
 LONGEST_STEP = 4
-"""Levels by which a design that passes is left behind at most: each time twice as many."""
-WARY = 0.7
-"""Share of the gap that is left which the next level may take."""
+"""Levels by which a design that passes is left behind at most."""
+DOUBT = 0.5
+"""A ring is not designed where it is expected to miss the least level of use by more than this."""
 CAUTION = 0.02
 """Where a shape is not found at all, the next level is lower by this share of the bound."""
 WIDER = 1.2
@@ -82,7 +82,7 @@ class Climb:
     Attributes:
         widened: rings with wider teeth than those screened before, as they were screened.
         optimism: levels by which shapes on the design law reach higher than springs.
-        loss: of a tooth between pitch and drawing, over the count of flexures, m.
+        loss: of a tooth between pitch and drawing, over the cube of the contact radius, 1/m2.
         weak_radius: contact radius at which the camshaft was too weak in torsion, m.
         left: springs that may still be designed of rings that were screened.
     """
@@ -100,35 +100,45 @@ class Climb:
 
     def climb(self, ring: Screened) -> None:
         """Design one ring at higher and higher levels; only what would be better than the best."""
-        if self._is_weak(ring.pair) or not self._may_win(ring.pair, ring.bound):
-            return
         least = self._least
-        low, high = least - 1, ring.bound + 1
+        if (
+            self._is_weak(ring.pair)
+            or not self._may_win(ring.pair, ring.bound)
+            or ring.level - self.optimism + DOUBT < least
+        ):
+            return
+        low, high, spare, fall = least - 1, ring.bound + 1, 0.0, ring.fall
         level, step, misses = max(least, min(self._start(ring), ring.bound)), 0, 0
+        stop: Stop | None = None
         while low < level < high and misses < MISSES and self.left > 0:
             self.left -= 1
             design = self.designed(ring.pair, level, ring.bound)
             if design.spring is not None:
-                low, misses = level, 0
-                step = min(max(2 * step, _up(ring, design.spring)), LONGEST_STEP)
-                level = min(low + step, max(low + 1, (low + high) // 2))
+                gap = _spare_gap(design.spring)
+                fell = (spare - gap) / (level - low) if low >= least else 0.0
+                fall = fell if fell > 0.0 else ring.fall
+                low, spare, misses = level, gap, 0
+                level = low + _ahead(high - low, spare, fall, stop)
                 continue
-            high, misses = level, misses + 1
+            high, stop, misses = level, design.stop, misses + 1
             if low >= least:
-                level = (low + level) // 2
+                level = low + _ahead(high - low, spare, fall, stop)
                 continue
             self._learn(ring, design)
-            if design.stop is not None and design.stop.tooth is not None:
-                wider = self._wider(ring, design.stop.tooth)
+            if stop is not None and stop.tooth is not None:
+                wider = self._wider(ring, stop.tooth)
                 if wider is None:
                     return
-                ring, high = wider, wider.bound + 1
+                ring, high, fall, stop = wider, wider.bound + 1, wider.fall, None
                 level = max(least, min(level, self._start(ring)))
-            elif design.stop is not None and "camshaft" in design.stop.claim:
+            elif stop is not None and "camshaft" in stop.claim:
                 return
             else:
-                step = max(2 * step, _back(ring, design.stop))
+                step = max(2 * step, _back(ring, stop))
                 level = max(level - step, ring.straight) if level > ring.straight else low
+        if low >= least:
+            ahead = spare / fall if fall > 0.0 else 1.0
+            self.optimism = ring.level - min(low + max(1.0, ahead), high)
 
     def straight(self, rings: Iterable[Candidate]) -> None:
         """Design the rings at the level of straight flexures while that beats the best."""
@@ -183,7 +193,11 @@ class Climb:
         """Whether what earlier rings have shown lets this one's camshaft fail as well."""
         if pair.contact_radius <= self.weak_radius:
             return True
-        return self._nominal_tooth(pair) - self.loss * pair.count < self._least_tooth
+        return self._tooth(pair) < self._least_tooth
+
+    def _tooth(self, pair: Pair) -> float:
+        """Thickness of a tooth after what drawn ones have lost, m."""
+        return self._nominal_tooth(pair) - self.loss * pair.contact_radius**3
 
     @property
     def _least_tooth(self) -> float:
@@ -206,17 +220,24 @@ class Climb:
         if "torsion" in stop.claim:
             self.weak_radius = max(self.weak_radius, pair.contact_radius)
         if stop.tooth is not None:
-            self.loss = max(self.loss, (self._nominal_tooth(pair) - stop.tooth) / pair.count)
+            lost = self._nominal_tooth(pair) - stop.tooth
+            self.loss = max(self.loss, lost / pair.contact_radius**3)
         if ring is not None and stop.lack is not None and ring.fall > 0.0:
             self.optimism = max(self.optimism, ring.level - design.level + stop.lack / ring.fall)
 
     def _wider(self, ring: Screened, tooth: float) -> Screened | None:
-        """The ring with more tooth than that, where its radius is free and it has a shape."""
+        """The ring with more tooth than that, where its radius is free and it has a shape.
+
+        Beyond some radius teeth lose more than the pitch gives them: some counts never have any.
+        """
         if not isinstance(self.aim.spec.envelope.contact_radius, str):
             return None
-        count = ring.pair.count
+        count, radius = ring.pair.count, ring.pair.contact_radius
+        thickest = math.sqrt(2.0 * math.pi / (3.0 * count * self.loss)) if self.loss else radius
+        if self._tooth(Pair(count, max(radius, thickest))) < self._least_tooth:
+            return None
         added = WIDER * count * (self._least_tooth - tooth) / (2.0 * math.pi)
-        pair = Pair(count, rounded_up(ring.pair.contact_radius + added))
+        pair = Pair(count, rounded_up(radius + added))
         known = candidate(self.aim, pair)
         if known is None or not self._may_win(pair, known.bound):
             return None
@@ -227,8 +248,20 @@ class Climb:
         return wider
 
 
-def _up(ring: Screened, spring: Spring) -> int:
-    return max(1, math.floor(WARY * _spare_gap(spring) / ring.fall)) if ring.fall > 0.0 else 1
+def _ahead(levels: int, spare: float, fall: float, stop: Stop | None) -> int:
+    """Levels from one that passes, with ``spare`` gap, to the next to be designed.
+
+    Args:
+        levels: up to one that fails, or to the bound.
+        fall: of the gap per level, m.
+        stop: what stopped the one that fails; None where none has been designed.
+    """
+    if stop is None:
+        steps = math.floor(spare / fall) if fall > 0.0 else 1
+        return max(1, min(steps, LONGEST_STEP, levels - 1))
+    if stop.lack is None:
+        return levels // 2
+    return max(1, math.floor(levels * spare / (spare + stop.lack)))
 
 
 def _back(ring: Screened, stop: Stop | None) -> int:

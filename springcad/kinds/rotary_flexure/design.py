@@ -8,7 +8,7 @@ from springcad.geometry.outline_ops import profile_area, profile_faults
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.aim import is_open
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
-from springcad.kinds.rotary_flexure.checks import spring_checks
+from springcad.kinds.rotary_flexure.checks import full_load_gaps, spring_checks
 from springcad.kinds.rotary_flexure.choice_report import with_choice
 from springcad.kinds.rotary_flexure.choosing import Choice, choose
 from springcad.kinds.rotary_flexure.feasibility import (
@@ -17,13 +17,11 @@ from springcad.kinds.rotary_flexure.feasibility import (
     require_feasible,
     resolved_style,
 )
-from springcad.kinds.rotary_flexure.full_load import DIRECTIONS
 from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
 from springcad.kinds.rotary_flexure.law import design_law
-from springcad.kinds.rotary_flexure.overrange import end_of_use
 from springcad.kinds.rotary_flexure.response import stroke
 from springcad.kinds.rotary_flexure.ring import Dowels, ring_profile
-from springcad.kinds.rotary_flexure.sizing import size_flexure
+from springcad.kinds.rotary_flexure.sizing import Sized, size_flexure
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.kinds.rotary_flexure.stack import of_sheet, stack_of
@@ -60,7 +58,7 @@ def decide(spec: RotaryFlexureSpec, progress: Progress) -> tuple[Spring, Choice 
     try:
         if not is_open(spec):
             return build_spring(spec, progress), None
-        choice = choose(spec, spring_of, progress)
+        choice = choose(spec, spring_with_room, progress)
         return choice.spring, choice
     except InfeasibleError as error:
         raise of_sheet(error, stack_of(spec)) from error
@@ -101,9 +99,34 @@ def spring_of(
     spec: RotaryFlexureSpec, case: Case, feasibility: tuple[Check, ...], progress: Progress
 ) -> Spring:
     """The spring of a case that is feasible; InfeasibleError where no part is found."""
-    law, target = design_law(case.inputs), target_of(spec)
-    sized = size_flexure(spec, case, law, target, progress)
-    ribbon = sized.found.ribbon
+    sized = size_flexure(spec, case, design_law(case.inputs), target_of(spec), progress)
+    return _finished(spec, case, feasibility, sized, progress)
+
+
+def spring_with_room(
+    spec: RotaryFlexureSpec, case: Case, feasibility: tuple[Check, ...], progress: Progress
+) -> Spring:
+    """The same, given up before the camshaft where the sized flexures come too close at full load.
+
+    Raises:
+        InfeasibleError: no part is found, or the gap is below the smallest wanted.
+    """
+    sized = size_flexure(spec, case, design_law(case.inputs), target_of(spec), progress)
+    for claim in full_load_gaps(spec, case, sized):
+        if claim.status == "fail":
+            raise InfeasibleError(claim.name, claim.value, claim.limit, claim.unit)
+    return _finished(spec, case, feasibility, sized, progress)
+
+
+def _finished(
+    spec: RotaryFlexureSpec,
+    case: Case,
+    feasibility: tuple[Check, ...],
+    sized: Sized,
+    progress: Progress,
+) -> Spring:
+    """Ring, camshaft and stroke of flexures that are sized."""
+    law, target, ribbon = design_law(case.inputs), target_of(spec), sized.found.ribbon
     progress("making the ring")
     dowels = spec.mounting.dowels
     ring = ring_profile(
@@ -125,10 +148,6 @@ def spring_of(
         stroke(ribbon, sized.beam, camshaft, inputs, direction, spec.camshaft.friction)
         for direction in (-1, 1)
     )
-    forward, backward = (
-        end_of_use(ribbon, sized.beam, camshaft, inputs, direction, case.yield_strength)
-        for direction in DIRECTIONS
-    )
     return Spring(
         spec=spec,
         case=case,
@@ -140,7 +159,6 @@ def spring_of(
         camshaft_inputs=inputs,
         camshaft=camshaft,
         strokes=(counter_clockwise, clockwise),
-        ends=(forward, backward),
         mass=profile_area(ring) * case.inputs.thickness * spec.material.values.density.value,
     )
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from springcad.geometry.outline import Profile
 from springcad.kinds.rotary_flexure.camshaft import Camshaft, CamshaftInputs
 from springcad.kinds.rotary_flexure.feasibility import Case
+from springcad.kinds.rotary_flexure.full_load import DIRECTIONS
 from springcad.kinds.rotary_flexure.law import DesignLaw
-from springcad.kinds.rotary_flexure.overrange import EndOfUse
+from springcad.kinds.rotary_flexure.overrange import EndOfUse, end_of_use
 from springcad.kinds.rotary_flexure.response import Stroke
 from springcad.kinds.rotary_flexure.search import Found
 from springcad.kinds.rotary_flexure.sizing import Sized
@@ -31,7 +33,6 @@ class Spring:
         ring: the flexure ring.
         camshaft_inputs, camshaft: the camshaft.
         strokes: counter-clockwise, clockwise.
-        ends: how far it may be turned, counter-clockwise and clockwise.
         mass: of the ring.
     """
 
@@ -45,7 +46,6 @@ class Spring:
     camshaft_inputs: CamshaftInputs
     camshaft: Camshaft
     strokes: tuple[Stroke, Stroke]
-    ends: tuple[EndOfUse, EndOfUse]
     mass: float
 
     @property
@@ -53,10 +53,12 @@ class Spring:
         """The sheets of the joint, of which this is one."""
         return self.case.stack
 
-    @property
+    @cached_property
     def end(self) -> EndOfUse:
-        """How far it may be turned whichever way."""
-        return min(self.ends, key=lambda end: end.angle)
+        """How far it may be turned whichever way: told of the spring that is kept."""
+        parts = (self.found.ribbon, self.beam, self.camshaft, self.camshaft_inputs)
+        ends = (end_of_use(*parts, way, self.case.yield_strength) for way in DIRECTIONS)
+        return min(ends, key=lambda end: end.angle)
 
     @property
     def found(self) -> Found:
