@@ -271,9 +271,9 @@ def test_backlash_is_the_play_at_the_contact_radius() -> None:
 
 def test_the_bottom_keeps_its_clearance() -> None:
     beam, inputs = s1()
-    for clearance in (50e-6, 100e-6):
-        cam = design_camshaft(beam, replace(inputs, bottom_clearance=clearance))
-        assert cam.slot.bottom_radius == pytest.approx(6e-3 - TIP - clearance, abs=0.5e-6)
+    for share in (0.25, 0.5):
+        cam = design_camshaft(beam, replace(inputs, bottom_clearance=share))
+        assert cam.slot.bottom_radius == pytest.approx(6e-3 - (1.0 + share) * TIP, abs=0.5e-6)
 
 
 def test_loads_of_s1() -> None:

@@ -157,7 +157,7 @@ def test_elements_with_friction_load_and_unload_as_the_beam_does() -> None:
 def test_the_drawn_flank_is_the_designed_one_wherever_the_contour_begins(direction: int) -> None:
     spring, camshaft = spring_of("S2"), written_spring(written_of("S2")).camshaft
     flank = spring.camshaft.flanks[0 if direction > 0 else 1]
-    exact = flank.points[flank.radius > spring.camshaft_inputs.smallest_radius]
+    exact = flank.points[flank.angle >= spring.camshaft.slot.exact_from[0 if direction > 0 else 1]]
     for shift in (0, 3, len(camshaft.points) // 2):
         turned = replace(
             camshaft,

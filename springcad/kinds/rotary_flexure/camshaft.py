@@ -66,9 +66,11 @@ class CamshaftInputs:
         sheets: as many equal rings twist the camshaft together.
         bore_radius: of the camshaft, 0 for none.
         backlash: tangential play of the unloaded tips at the contact radius, both sides together.
-        bottom_clearance: radial clearance of the noses at rest, at least.
+        bottom_clearance: radial clearance of the noses at rest, at least, over their radius.
         overrange: share of the deflection by which the flanks go on.
-        smallest_radius: of curvature of the flanks.
+        smallest_radius: of curvature of the flanks, over that of the noses. They are convex: no
+            tool asks for a radius. A sharper one is pressed harder near rest, a blunter one stands
+            farther into the unloaded tip.
     """
 
     root_radius: float
@@ -82,9 +84,9 @@ class CamshaftInputs:
     sheets: int = 1
     bore_radius: float = 0.0
     backlash: float = 0.0
-    bottom_clearance: float = 0.1e-3
+    bottom_clearance: float = 4.0 / 7.0
     overrange: float = 0.04
-    smallest_radius: float = 0.15e-3
+    smallest_radius: float = 6.0 / 7.0
 
 
 @dataclass(frozen=True)
@@ -173,9 +175,9 @@ def design_camshaft(beam: PreparedBeam, inputs: CamshaftInputs) -> Camshaft:
     slot = tooth_space(
         flanks,
         rest,
-        smallest_radius=inputs.smallest_radius,
+        smallest_radius=inputs.smallest_radius * rest.half_thickness,
         backlash=inputs.backlash,
-        bottom_clearance=inputs.bottom_clearance,
+        bottom_clearance=inputs.bottom_clearance * rest.half_thickness,
         land=STRIPS * strip,
     )
     if inputs.bore_radius >= slot.bottom_radius:
