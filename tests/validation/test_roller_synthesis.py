@@ -198,7 +198,7 @@ def test_the_same_as_the_forward_problem_of_the_mechanics_core() -> None:
     flank = profile.flank
     found = seat(
         exact_part(PAPER),
-        profile.curve.dense(0.0, 0.0, 2000),
+        profile.curve.dense(2000),
         flank.angle[rows],
         count=1,
         force=0.9 * flank.force[rows],
