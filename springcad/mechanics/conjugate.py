@@ -21,7 +21,7 @@ from scipy.interpolate import CubicSpline
 
 from springcad.mechanics.conjugate_contact import find_contacts
 from springcad.mechanics.conjugate_faults import refuse_search
-from springcad.mechanics.contact import half_width, peak_pressure
+from springcad.mechanics.contact import half_width
 from springcad.mechanics.elastic_part import ElasticPart
 from springcad.mechanics.torque_law import TorqueLaw, require_law, share_of_one
 
@@ -143,15 +143,10 @@ def until(flank: Flank, angle: float) -> Flank:
 
 
 def hertz_half_width(flank: Flank, width: float, modulus: float) -> Floats:
-    """Half width (A,) [m] of the contact strip; arguments as for ``hertz_pressure``."""
-    return half_width(flank.force, width, flank.relative_curvature, modulus)
-
-
-def hertz_pressure(flank: Flank, width: float, modulus: float) -> Floats:
-    """Largest contact pressure (A,) [Pa] of a profile without undercut.
+    """Half width (A,) [m] of the contact strip of a profile without undercut.
 
     Args:
         width: thickness of the sheet [m].
         modulus: of the contact, ``contact.contact_modulus`` [Pa].
     """
-    return peak_pressure(flank.force, width, flank.relative_curvature, modulus)
+    return half_width(flank.force, width, flank.relative_curvature, modulus)

@@ -32,7 +32,7 @@ Opening = Callable[[Floats], tuple[Floats, Floats]]
 
 NODES = 64
 """Places along a strip at which the gap is looked at."""
-INNER = 0.8
+INNER = 0.9
 """The peak is looked for within this share of the half width: where an edge ends or its curvature
 jumps just within the end of the strip, a sliver of it is pressed harder."""
 _TOLERANCE = 1e-8
@@ -88,7 +88,7 @@ def contact_strips(
         longest = np.abs(change).max(axis=0) / half
         change = change * np.minimum(1.0, _LONGEST / np.maximum(longest, _LONGEST))
         middle, half = middle + change[0], half + change[1]
-        if not np.max(longest, initial=0.0) > _TOLERANCE:
+        if np.max(longest, initial=0.0) <= _TOLERANCE:
             break
     else:
         raise ArithmeticError("no strip of contact was found")

@@ -12,7 +12,7 @@ import pytest
 
 from springcad.errors import InfeasibleError
 from springcad.mechanics.cam_contact import seat
-from springcad.mechanics.conjugate import Flank, conjugate_flank, hertz_pressure
+from springcad.mechanics.conjugate import Flank, conjugate_flank, hertz_half_width
 from springcad.mechanics.elastic_part import ContactState, ElasticPart
 from springcad.mechanics.flank_faults import require_no_fold, require_no_undercut
 from springcad.mechanics.plane import rotated
@@ -192,7 +192,8 @@ def normal_cosine() -> np.ndarray:
 def test_pressure_on_the_flank_is_hertz_s() -> None:
     found, width, modulus = flank(), 4.5e-3, 110e9
     expected = np.sqrt(found.force * modulus / (np.pi * width * found.radius))
-    np.testing.assert_allclose(hertz_pressure(found, width, modulus), expected, rtol=1e-12)
+    half = hertz_half_width(found, width, modulus)
+    np.testing.assert_allclose(2.0 * found.force / (np.pi * width * half), expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize("softening", [2.0, 3.0])

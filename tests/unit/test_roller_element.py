@@ -26,10 +26,13 @@ from springcad.kinds.roller_cam.element import (
     mount_holes,
     require_room,
 )
-from springcad.kinds.roller_cam.element_mesh import COARSE, EDGE_SETS, FINE, Density, element_mesh
+from springcad.kinds.roller_cam.element_mesh import EDGE_SETS, Density, coarse, element_mesh, fine
 from springcad.kinds.roller_cam.synthesis import synthesise
 from springcad.kinds.target_law import law_of, polynomial
 from springcad.mechanics.fem.blocks import mesh_area, smallest_scaled_jacobian
+
+COARSE = coarse(4e-3)
+FINE = fine(4e-3)
 
 
 def geometry_of(thickness: float = 2e-3) -> ElementGeometry:

@@ -15,7 +15,7 @@ from springcad.errors import InfeasibleError
 from springcad.kinds.roller_cam.compensation import Method, compensate, torque_error
 from springcad.kinds.roller_cam.contact_model import element_contact, press_through, torque
 from springcad.kinds.roller_cam.element import ElementDimensions, element_geometry
-from springcad.kinds.roller_cam.element_mesh import FINE, Density
+from springcad.kinds.roller_cam.element_mesh import Density, fine
 from springcad.kinds.roller_cam.pseudo_law import (
     AngleRatio,
     TorqueCurve,
@@ -25,6 +25,8 @@ from springcad.kinds.roller_cam.pseudo_law import (
 )
 from springcad.kinds.roller_cam.synthesis import ContactProfile, synthesise
 from springcad.kinds.target_law import exponential, law_of
+
+FINE = fine(4e-3)
 
 CALIBRATED = 1.18e-3
 JUDGED = np.array([0.05, 0.2, 0.6, 1.3, 1.9]) * DEGREE

@@ -21,9 +21,11 @@ from springcad.kinds.roller_cam.contact_compliance import (
     profile_compliance,
 )
 from springcad.kinds.roller_cam.element import ElementDimensions, element_geometry
-from springcad.kinds.roller_cam.element_mesh import COARSE, Density
+from springcad.kinds.roller_cam.element_mesh import Density, coarse
 from springcad.kinds.roller_cam.forward import forward
 from springcad.kinds.roller_cam.synthesis import synthesise
+
+COARSE = coarse(4e-3)
 
 FINER = Density(across=16, through=16, fillet=10, contact=0.02e-3)
 STRIP = 0.15e-3

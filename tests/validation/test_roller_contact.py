@@ -21,10 +21,13 @@ from springcad.kinds.roller_cam.contact_model import (
 )
 from springcad.kinds.roller_cam.contact_pad import contact_pressure
 from springcad.kinds.roller_cam.element import element_geometry, element_profile
-from springcad.kinds.roller_cam.element_mesh import COARSE, FINE, Density
+from springcad.kinds.roller_cam.element_mesh import Density, coarse, fine
 from springcad.kinds.roller_cam.forward import forward
 from springcad.kinds.roller_cam.strip import roller_strips
 from springcad.mechanics.contact import contact_modulus, peak_pressure
+
+COARSE = coarse(4e-3)
+FINE = fine(4e-3)
 
 
 def test_the_torque_does_the_work_that_the_element_stores() -> None:

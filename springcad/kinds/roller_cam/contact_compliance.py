@@ -21,7 +21,7 @@ from springcad.kinds.roller_cam.element import (
     element_geometry,
     first_place,
 )
-from springcad.kinds.roller_cam.element_mesh import COARSE, Density, element_mesh
+from springcad.kinds.roller_cam.element_mesh import Density, coarse, element_mesh
 from springcad.kinds.roller_cam.joint import Cantilever
 from springcad.kinds.roller_cam.synthesis import ContactProfile
 from springcad.mechanics.contact import half_width
@@ -39,7 +39,8 @@ _SAMPLES = 41
 """Points along the profile at which the compliance is computed."""
 _DEGREES = (2, 9)
 """Least and greatest degree of the compliance over the place."""
-_NARROWEST = 1e-6
+_NARROWEST = 0.01
+"""Half width of a strip at least, over that of the patch which stands for it."""
 _PATCH_POINTS = 48
 """Points of the midpoint rule over a patch, in the angle whose sine is the place on it."""
 
@@ -52,11 +53,13 @@ class ProfileCompliance:
         angle: at which the roller touches there, ascending (P,) [rad].
         place: along the profile from its first contact, ascending (P,) [m].
         matrix: in the frame of the tip (P, 2, 2) [m/N].
+        element: length of the elements along the profile [m].
     """
 
     angle: Floats
     place: Floats
     matrix: Floats
+    element: float
 
     def at_angle(self, angle: Floats) -> Floats:
         """The compliance (A, 2, 2) over the angle; that of the end beyond the ends."""
@@ -69,7 +72,7 @@ class ProfileCompliance:
         A polynomial, by least squares: its second derivative enters the profile's curvature. Its
         degree is at most one per two elements: what differs between elements is no compliance.
         """
-        degree = int(np.clip(np.ptp(self.place) / (2.0 * COARSE.contact), *_DEGREES))
+        degree = int(np.clip(np.ptp(self.place) / (2.0 * self.element), *_DEGREES))
         middle, half = 0.5 * (self.place[0] + self.place[-1]), 0.5 * np.ptp(self.place)
         known = self.matrix.reshape(len(self.place), 4)
         coefficients = chebfit((self.place - middle) / half, known, degree)
@@ -80,15 +83,16 @@ class ProfileCompliance:
 
 
 def profile_compliance(
-    profile: ContactProfile, dimensions: ElementDimensions, density: Density = COARSE
+    profile: ContactProfile, dimensions: ElementDimensions, density: Density | None = None
 ) -> ProfileCompliance:
-    """Compliance of the element with this profile beyond that of its beam.
+    """Compliance of the element with this profile beyond that of its beam; a coarse mesh will do.
 
     First contacts that are left out (``first_place``) are left out here too.
 
     Raises:
         InfeasibleError: the parts of the element do not fit together.
     """
+    density = density or coarse(profile.joint.roller.radius)
     geometry = element_geometry(profile, dimensions)
     rows = np.flatnonzero(profile.place >= first_place(profile, dimensions))
     rows = rows[np.unique(np.linspace(0, len(rows) - 1, _SAMPLES).astype(np.intp))]
@@ -100,7 +104,10 @@ def profile_compliance(
     model = element_model(geometry, density)
     whole = element_compliance(model, points, flank.normals[rows], strip)
     return ProfileCompliance(
-        flank.angle[rows], profile.place[rows], whole - beam_compliance(beam, points)
+        flank.angle[rows],
+        profile.place[rows],
+        whole - beam_compliance(beam, points),
+        density.contact,
     )
 
 
@@ -127,7 +134,8 @@ def element_compliance(model: Model, points: Floats, normals: Floats, strip: Flo
 
     Args:
         normals: unit vectors along which the strip is pressed (P, 2).
-        strip: half width of the strip (P,) [m], at least a micrometre is taken.
+        strip: half width of the strip (P,) [m]; a hundredth of an element at least
+            is taken.
     """
     mesh, sheet = model.solid.mesh, model.solid.sheet
     shares, wide = _patch_shares(mesh, points, strip)
@@ -136,7 +144,7 @@ def element_compliance(model: Model, points: Floats, normals: Floats, strip: Flo
     forces[1::2, 1::2] = shares.T
     whole = compliance(model, forces).reshape(len(points), 2, len(points), 2)
     rows = np.arange(len(points))
-    narrower = np.log(wide / np.maximum(strip, _NARROWEST))
+    narrower = np.log(wide / np.maximum(strip, _NARROWEST * wide))
     local = 2.0 * narrower / (np.pi * sheet.elastic_modulus * sheet.thickness)
     along = normals[:, :, None] * normals[:, None, :]
     return np.asarray(whole[rows, :, rows, :] + local[:, None, None] * along)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from springcad.kinds.roller_cam.contact_compliance import element_model
 from springcad.kinds.roller_cam.element import ElementGeometry
-from springcad.kinds.roller_cam.element_mesh import FINE, Density
+from springcad.kinds.roller_cam.element_mesh import Density, fine
 from springcad.kinds.roller_cam.joint import Roller
 from springcad.mechanics.fem.contact import prepare_contact
 from springcad.mechanics.fem.model import Load, Model, State, with_contact
@@ -27,8 +27,9 @@ from springcad.mechanics.fem.rigid_profile import RigidProfile, rigid_profile
 
 Floats = NDArray[np.float64]
 
-PENALTY = 5e15
-"""Pressure per penetration of the contact before its multipliers are updated once [Pa/m]."""
+PENALTY = 100.0
+"""Pressure per penetration of the contact before its multipliers are updated once, over the elastic
+modulus per radius of the roller."""
 _CONTACT_POINTS = 6
 """Per edge: at small angles the strip of contact is shorter than an edge."""
 _OUTLINE = 720
@@ -58,19 +59,19 @@ class Press:
 
 
 def element_contact(
-    geometry: ElementGeometry, roller: Roller, density: Density = FINE
+    geometry: ElementGeometry, roller: Roller, density: Density | None = None
 ) -> ElementContact:
-    """Mesh, supports and contact.
+    """Mesh, a fine one unless another is given, supports and contact.
 
     Raises:
         InfeasibleError: the parts of the element do not fit together.
     """
-    held = element_model(geometry, density)
+    held = element_model(geometry, density or fine(roller.radius))
     contact = prepare_contact(
         held.solid,
         "contact",
         _tilted(roller, 0.0),
-        PENALTY,
+        PENALTY * geometry.cantilever.elastic_modulus / roller.radius,
         points_per_edge=_CONTACT_POINTS,
         augmentations=1,
     )

@@ -22,8 +22,9 @@ Floats = NDArray[np.float64]
 
 _CHORD = 1e-9
 """Between the arcs of the drawing and their chords (m): a few micrometres long."""
-_REACH = 2e-3
-"""Of the profile to either side of the contact (m); the widest strips are 1 mm to either side."""
+_REACH = 0.5
+"""Of the profile to either side of the contact, over the radius of the roller; the widest strips
+are half as wide."""
 _STEEPEST = 0.5
 """Cosine of the angle to the contact up to which the profile is looked at."""
 
@@ -48,7 +49,7 @@ def contact_pressure(element: ElementContact, press: Press, drawn: BulgePolyline
     modulus = contact_modulus(*(sheet.elastic_modulus, sheet.poisson_ratio) * 2)
     try:
         return pad_pressure(
-            _difference(drawn, middle, roller),
+            _difference(drawn, middle, roller, _REACH * element.roller.radius),
             np.zeros(2),
             float(np.hypot(*press.force)),
             half_thickness=0.5 * element.geometry.dimensions.thickness,
@@ -58,16 +59,17 @@ def contact_pressure(element: ElementContact, press: Press, drawn: BulgePolyline
         return math.nan
 
 
-def _difference(drawn: BulgePolyline, middle: Floats, roller: float) -> RigidProfile:
+def _difference(drawn: BulgePolyline, middle: Floats, roller: float, reach: float) -> RigidProfile:
     """The body that is as far from a straight pad as the roller is from the profile.
 
     Args:
         drawn: contour of the element, counter-clockwise.
         middle: of the contact, on the unloaded profile (2,).
         roller: its curvature there [1/m].
+        reach: of the profile to either side [m].
     """
     points = flatten(drawn, _CHORD)
-    points = points[np.hypot(*(points - middle).T) < _REACH]
+    points = points[np.hypot(*(points - middle).T) < reach]
     near = project(rigid_profile(points), middle)
     away = points - middle
     steps = np.diff(away, axis=0)

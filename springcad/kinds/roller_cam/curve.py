@@ -13,8 +13,6 @@ from springcad.mechanics.plane import rotated
 Floats = NDArray[np.float64]
 
 QUINTIC = 5
-ENDS = 0.3e-3
-"""Length of the straight ends (m) that are looked at."""
 _DENSE = 800
 
 
@@ -68,9 +66,9 @@ class ProfileCurve:
         points = self.points(end) + chord[:, None] * rotated(tangent, 0.5 * turn)
         return points, rotated(tangent, turn)
 
-    def dense(self, before: float = ENDS, beyond: float = ENDS, count: int = _DENSE) -> Floats:
-        """Evenly spaced points (count, 2) that stand for the curve with straight ends [m]."""
-        return self.points(np.linspace(-before, self.length + beyond, count))
+    def dense(self, count: int = _DENSE) -> Floats:
+        """Evenly spaced points (count, 2) that stand for the curve [m]."""
+        return self.points(np.linspace(0.0, self.length, count))
 
 
 def curve_through(points: Floats, degree: int = QUINTIC) -> tuple[ProfileCurve, Floats]:

@@ -62,8 +62,8 @@ Floats = NDArray[np.float64]
 
 ANGLES = 200
 """Angles at which the drawn profile is analysed: its arcs waver, and none may be passed over."""
-ROUNDING = 0.05e-3
-"""Radius of outer corners (m): the first contact lies near the upper one."""
+ROUNDING = 0.0125
+"""Radius of outer corners over that of the roller: the first contact lies near the upper one."""
 _BY_ENERGY = "use method: energy, which needs no steps"
 _SMOOTHER = (
     "smooth target.law there, or raise contact_part.thickness; these were not tried, and no other "
@@ -205,7 +205,7 @@ def _dimensions(spec: RollerCamSpec) -> ElementDimensions:
         thickness=spec.contact_part.thickness,
         root_fillet=spec.cantilever.root_fillet,
         foot_fillet=foot_fillet(spec),
-        rounding=ROUNDING,
+        rounding=ROUNDING * spec.joint.roller_radius,
         gap=spec.process.rules.min_gap,
         mount=Mount(
             mount.length, mount.height, mount.hole_diameter, mount.holes, mounting=mount.held

@@ -62,10 +62,15 @@ class Density:
     contact: float
 
 
-COARSE = Density(across=8, through=8, fillet=4, contact=0.1e-3)
-"""For compliances: about 1500 elements."""
-FINE = Density(across=10, through=10, fillet=6, contact=0.05e-3)
-"""For contact and stress: about 2500 elements."""
+def coarse(roller_radius: float) -> Density:
+    """For compliances: about 1500 elements, 0.1 mm long under a roller of 4 mm."""
+    return Density(across=8, through=8, fillet=4, contact=roller_radius / 40.0)
+
+
+def fine(roller_radius: float) -> Density:
+    """For contact and stress: about 2500 elements, 0.05 mm long under a roller of 4 mm."""
+    return Density(across=10, through=10, fillet=6, contact=roller_radius / 80.0)
+
 
 EDGE_SETS: dict[str, tuple[tuple[str, Side], ...]] = {
     "contact": (("head", "west"),),

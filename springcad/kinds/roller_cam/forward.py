@@ -128,7 +128,7 @@ def least_gap(joint: Joint, curve: ProfileCurve, stroke: Stroke) -> Floats:
     """
     roller = joint.roller
     placed = (
-        rotated(curve.dense(0.0, 0.0)[None], stroke.tip.rotation[:, None])
+        rotated(curve.dense()[None], stroke.tip.rotation[:, None])
         + stroke.tip.displacement[:, None]
     )
     sunk = roller.offset - roller.drum_radius * np.sin(stroke.angle)

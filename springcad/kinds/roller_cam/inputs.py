@@ -11,8 +11,9 @@ from springcad.kinds.roller_cam.spec import RollerCamSpec
 from springcad.kinds.target_law import Law, law_of
 from springcad.spec.common import CommonSpec
 
-FOOT_FILLET = 1e-3
-"""Radius between cantilever and contact part (m), at least the smallest of the process."""
+FOOT_FILLET = 0.25
+"""Radius between cantilever and contact part over that of the roller; at least the smallest of the
+process."""
 
 
 def roller_spec(model: CommonSpec) -> RollerCamSpec:
@@ -54,7 +55,7 @@ def joint_of(spec: RollerCamSpec) -> Joint:
 
 def foot_fillet(spec: RollerCamSpec) -> float:
     """Radius between cantilever and contact part (m)."""
-    return max(FOOT_FILLET, spec.process.rules.min_inside_radius)
+    return max(FOOT_FILLET * spec.joint.roller_radius, spec.process.rules.min_inside_radius)
 
 
 def case_of(model: CommonSpec) -> Case:

@@ -34,7 +34,9 @@ Floats = NDArray[np.float64]
 SHARES = (0.1, 0.25, 0.5, 0.75, 1.0)
 """Angles at which the models are compared, over the stroke from the end of the dead zone."""
 TOLERANCE = 0.005
-"""Of torque and force, over the largest: near rest a micrometre is more than a per cent of them."""
+"""Of torque and force, over the largest: near rest a micrometre is more than a per cent of them.
+Where the arcs of the drawing change the torque by more, which a check of its own tells, by as much:
+the report's numbers are of those arcs, the mesh is of the profile that they follow."""
 STRESS_TOLERANCE = 0.02
 """Over the largest. The beam's section is taken where it rests, not where it has gone to."""
 PRESSURE_TOLERANCE = 0.05
@@ -89,16 +91,17 @@ def _comparisons(
     if not presses:
         return
     source = "beam with a yielding contact part, drawn profile; finite elements"
+    share = max(TOLERANCE, written.number("design.drawing_torque_change"))
     moment = _reported(written, "group_torque_Nm", presses)
     yield _compared(
         "torque of a group", "N*m", presses, moment, [torque(element, press) for press in presses],
-        TOLERANCE * float(np.max(moment)), source,
+        share * float(np.max(moment)), source,
     )  # fmt: skip
     force = _reported(written, "roller_force_N", presses)
     yield _compared(
         "force of the roller", "N", presses, force,
         [float(np.hypot(*press.force)) for press in presses],
-        TOLERANCE * float(np.max(force)), source,
+        share * float(np.max(force)), source,
     )  # fmt: skip
     angles = np.array([press.angle for press in presses])
     gamma = _reported(written, "contact_angle_rad", presses)

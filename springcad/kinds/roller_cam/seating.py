@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.roller_cam.curve import ENDS, ProfileCurve
+from springcad.kinds.roller_cam.curve import ProfileCurve
 from springcad.kinds.roller_cam.joint import Joint, Roller
 from springcad.kinds.roller_cam.tip import TipModel, TipState
 from springcad.mechanics.plane import rotated
@@ -27,6 +27,8 @@ Floats = NDArray[np.float64]
 PlaceCompliance = Callable[[Floats], Floats]
 """Of the contact part against the tip (A, 2, 2) [m/N] over the place on the profile (A,) [m]."""
 
+_ENDS = 0.075
+"""Length of the profile's straight ends that is looked at, over the radius of the roller."""
 _SCAN = (8, 48, 9)
 """Places that are looked at on the upper end, the curve and the lower end."""
 _TOLERANCE = 1e-11
@@ -158,11 +160,12 @@ def _scan(joint: Joint, curve: ProfileCurve, loaded: Loading) -> Floats:
     negative. Places even along the profile lead to places even over the angle.
     """
     upper, middle, lower = _SCAN
+    ends = _ENDS * joint.roller.radius
     place = np.concatenate(
         [
-            np.linspace(-ENDS, 0.0, upper, endpoint=False),
+            np.linspace(-ends, 0.0, upper, endpoint=False),
             np.linspace(0.0, curve.length, middle, endpoint=False),
-            np.linspace(curve.length, curve.length + ENDS, lower),
+            np.linspace(curve.length, curve.length + ends, lower),
         ]
     )
     free = loaded(place, np.zeros_like(place))

@@ -29,7 +29,7 @@ from springcad.kinds.rotary_flexure.flexure_contact import (
 from springcad.kinds.rotary_flexure.room import hub_shear_stress
 from springcad.mechanics.beam import PreparedBeam, unloaded_points
 from springcad.mechanics.cam_contact import Seat, seat
-from springcad.mechanics.conjugate import Flank, conjugate_flank, hertz_half_width, hertz_pressure
+from springcad.mechanics.conjugate import Flank, at_rows, conjugate_flank, hertz_half_width
 from springcad.mechanics.contact import contact_modulus
 from springcad.mechanics.fem.assembly import Sheet
 from springcad.mechanics.torque_law import TorqueLaw
@@ -66,9 +66,11 @@ class CamshaftInputs:
         sheets: as many equal rings twist the camshaft together.
         bore_radius: of the camshaft, 0 for none.
         backlash: tangential play of the unloaded tips at the contact radius, both sides together.
-        bottom_clearance: radial clearance of the noses at rest, at least.
+        bottom_clearance: radial clearance of the noses at rest, at least, over their radius.
         overrange: share of the deflection by which the flanks go on.
-        smallest_radius: of curvature of the flanks.
+        smallest_radius: of curvature of the flanks, over that of the noses. They are convex: no
+            tool asks for a radius. A sharper one is pressed harder near rest, a blunter one stands
+            farther into the unloaded tip.
     """
 
     root_radius: float
@@ -82,9 +84,9 @@ class CamshaftInputs:
     sheets: int = 1
     bore_radius: float = 0.0
     backlash: float = 0.0
-    bottom_clearance: float = 0.1e-3
+    bottom_clearance: float = 4.0 / 7.0
     overrange: float = 0.04
-    smallest_radius: float = 0.15e-3
+    smallest_radius: float = 6.0 / 7.0
 
 
 @dataclass(frozen=True)
@@ -101,7 +103,6 @@ class Camshaft:
         tooth_height: from the bottom to the tip circle (m).
         tooth_stress: at the roots of the teeth at the end of the flanks, by finite elements (Pa).
         hub_stress: torsion of the round core inside the slots, without notch (Pa).
-        pressure: Hertzian pressure on the flanks (2, A), pad flat, flank radius as drawn (Pa).
         overlap: how deep the tips, at rest and deformed, cut into the teeth anywhere (m).
     """
 
@@ -114,7 +115,6 @@ class Camshaft:
     tooth_height: float
     tooth_stress: float
     hub_stress: float
-    pressure: Floats
     overlap: float
 
 
@@ -169,15 +169,15 @@ def design_camshaft(beam: PreparedBeam, inputs: CamshaftInputs) -> Camshaft:
     """
     flanks = (flank(beam, inputs, 1), flank(beam, inputs, -1))
     modulus = contact_modulus(*(beam.beam.elastic_modulus, inputs.poisson_ratio) * 2)
-    drawn = [_as_drawn(side, inputs.smallest_radius) for side in flanks]
-    strip = max(float(hertz_half_width(s, beam.beam.thickness, modulus)[-1]) for s in drawn)
+    ends = [at_rows(side, np.array([-1])) for side in flanks]
+    strip = max(float(hertz_half_width(end, beam.beam.thickness, modulus)[0]) for end in ends)
     rest = _rest(beam, inputs)
     slot = tooth_space(
         flanks,
         rest,
-        smallest_radius=inputs.smallest_radius,
+        smallest_radius=inputs.smallest_radius * rest.half_thickness,
         backlash=inputs.backlash,
-        bottom_clearance=inputs.bottom_clearance,
+        bottom_clearance=inputs.bottom_clearance * rest.half_thickness,
         land=STRIPS * strip,
     )
     if inputs.bore_radius >= slot.bottom_radius:
@@ -203,15 +203,8 @@ def design_camshaft(beam: PreparedBeam, inputs: CamshaftInputs) -> Camshaft:
         tooth_height=slot.tip_radius - slot.bottom_radius,
         tooth_stress=float(np.max(stresses)),
         hub_stress=float(hub_shear_stress(torque, slot.bottom_radius, inputs.bore_radius)),
-        pressure=np.stack([hertz_pressure(side, beam.beam.thickness, modulus) for side in drawn]),
         overlap=max(slot.preload, *(overlap(beam, inputs, slot, side) for side in flanks)),
     )
-
-
-def _as_drawn(side: Flank, smallest_radius: float) -> Flank:
-    """The flank with the smallest radius where it would be sharper or hollow."""
-    sharp = side.radius < smallest_radius
-    return replace(side, curvature=np.where(sharp, 1.0 / smallest_radius, side.curvature))
 
 
 def camshaft_profile(slot: Slot, count: int, bore_radius: float) -> Profile:

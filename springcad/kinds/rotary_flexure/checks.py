@@ -200,7 +200,7 @@ def _camshaft(spring: Spring) -> Iterator[Check]:
     pressure = max(float(stroke.pressure.max()) for stroke in spring.strokes)
     yield check(
         "contact pressure on the flanks", pressure, "<=", limit, "Pa",
-        source=f"Hertz, line contact; {words}; {same}", otherwise="warn",
+        source=f"strip of contact on the flank as drawn; {words}; {same}", otherwise="warn",
         remedy="raise envelope.thickness or flexures.count",
     )  # fmt: skip
     yield check(

@@ -28,8 +28,8 @@ PAD_STATIONS = 9
 APART = 0.01
 """The last place before the pad at which the factor follows the stress is so far from it, as a
 share of the length: there it must meet the tip's thickness."""
-CONTACT_ON_PAD = 0.05e-3
-"""The contact stays so far within the pad, m."""
+CONTACT_ON_PAD = 2.0 / 7.0
+"""The contact stays so far within the pad, over the tip's half thickness."""
 EVERY = 2
 """Every so many of the beam's nodes there is a knot of the factor over the length."""
 TENTHS = 10
@@ -127,7 +127,8 @@ def corrected(
     wanted = at.half_thickness * np.sqrt(load.ratio / level)
     lever = round(load.lever, _DIGITS)
     thin = ribbon.length - _reaches(load.stations, wanted, problem.tip_half_thickness)
-    pad_length = round(max(thin, problem.span - load.innermost + CONTACT_ON_PAD), _DIGITS)
+    within = CONTACT_ON_PAD * problem.tip_half_thickness
+    pad_length = round(max(thin, problem.span - load.innermost + within), _DIGITS)
     pad_start = ribbon.length - pad_length
     before = load.stations < (1.0 - APART) * pad_start
     # The law knows the correction by its lever alone.

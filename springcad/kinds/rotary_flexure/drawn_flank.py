@@ -17,8 +17,9 @@ from springcad.written import IncompleteDesignError
 
 Floats = NDArray[np.float64]
 
-STEP = 4e-6
-"""Distance of the points of a flank (m): its arcs of 0.15 mm are then exact within 0.1 nm."""
+STEP = 1.0 / 1500.0
+"""Distance of the points of a flank over the radius of the tip circle: 4 um for one of 6 mm, whose
+arcs of 0.15 mm are then exact within 0.1 nm."""
 _SAME = 1e-7
 """Points this near the tip circle are on it (m); drawings are rounded to a nanometre."""
 
@@ -35,7 +36,8 @@ def drawn_flank(camshaft: BulgePolyline, direction: int) -> RigidProfile:
     """
     slot = _slot_segments(camshaft)
     counts = np.zeros(len(camshaft.points))
-    counts[slot] = np.maximum(np.ceil(segment_lengths(camshaft)[slot] / STEP), 2.0)
+    step = STEP * float(np.hypot(*camshaft.points.T).max())
+    counts[slot] = np.maximum(np.ceil(segment_lengths(camshaft)[slot] / step), 2.0)
     segment, fraction = spread_places(counts)
     # The slot may run through the first vertex of the contour.
     shift = int(np.flatnonzero(segment == slot[0])[0])

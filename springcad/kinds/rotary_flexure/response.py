@@ -18,6 +18,7 @@ from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.camshaft import Camshaft, CamshaftInputs, seated
 from springcad.kinds.rotary_flexure.clearance import deformed_gaps
+from springcad.kinds.rotary_flexure.flank_pressure import flank_strips
 from springcad.mechanics.beam import BeamStates, PreparedBeam, contact_load
 from springcad.mechanics.conjugate import Flank, until
 from springcad.mechanics.friction import FrictionLoop, friction_loop
@@ -40,7 +41,7 @@ class Stroke:
         force: normal force on one tip.
         station: of the contact on the flexure.
         nominal_stress, local_stress: largest anywhere on a flexure without its root fillets.
-        pressure: Hertzian, on the flank.
+        pressure: largest on the contact strip, on the flank as drawn.
         gap: smallest between deformed neighbours, at ``gap_angle``.
         full: the deformed flexure at the design deflection (one load).
         friction: loading and unloading with the spec's friction, None without.
@@ -76,8 +77,7 @@ def stroke(
     Raises:
         InfeasibleError: the flexures have left the camshaft before the design deflection.
     """
-    index = 0 if direction > 0 else 1
-    flank = camshaft.flanks[index]
+    flank = camshaft.flanks[0 if direction > 0 else 1]
     seat = seated(beam, inputs, camshaft, flank)
     within = seat.angle <= inputs.deflection * (1.0 + ROUND_OFF)
     reached = float(seat.angle[within].max(initial=0.0))
@@ -97,7 +97,7 @@ def stroke(
         station=station,
         nominal_stress=states.peak_nominal_stress,
         local_stress=states.peak_local_stress,
-        pressure=np.interp(seat.angle[within], flank.angle, camshaft.pressure[index]),
+        pressure=flank_strips(beam, inputs, camshaft, seat, direction).peak_pressure[within],
         gap_angle=seat.angle[measured],
         gap=deformed_gaps(ribbon, beam, some, inputs.root_radius, inputs.count),
         full=contact_load(beam, station[-1:], force[-1:], direction),

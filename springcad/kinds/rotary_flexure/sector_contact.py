@@ -7,9 +7,8 @@ spring, no point of contact, no torque law.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -23,17 +22,14 @@ from springcad.kinds.rotary_flexure.root_compliance import sector_supports
 from springcad.kinds.rotary_flexure.sector_blocks import FINE
 from springcad.kinds.rotary_flexure.sector_mesh import sector_mesh
 from springcad.kinds.rotary_flexure.written_spring import WrittenSpring, plain_stations
-from springcad.mechanics.contact import contact_modulus
 from springcad.mechanics.fem.assembly import prepare_solid
 from springcad.mechanics.fem.contact import prepare_contact
 from springcad.mechanics.fem.element import edge_shape_functions
 from springcad.mechanics.fem.mesh import Mesh
 from springcad.mechanics.fem.model import Load, Model, State, prepare_model, with_contact
 from springcad.mechanics.fem.newton import NoEquilibriumError, solve_path
-from springcad.mechanics.fem.pad import pad_pressure
 from springcad.mechanics.fem.recovery import edge_stress
 from springcad.mechanics.fem.rigid_profile import RigidProfile
-from springcad.mechanics.plane import rotated
 
 Floats = NDArray[np.float64]
 
@@ -138,35 +134,6 @@ def neighbour_gap(sector: SectorContact, turn: Turn) -> float:
     shape, _ = edge_shape_functions(np.linspace(-1.0, 1.0, CHORDS, endpoint=False))
     outline = shapely.Polygon((shape @ moved[edges]).reshape(-1, 2))
     return polygon_gap(outline, (0.0, 0.0), sector.spring.sector.count)
-
-
-def contact_pressure(sector: SectorContact, turn: Turn) -> float:
-    """Peak pressure between pad and flank (Pa); infinite where the contact is at a corner, not a
-    number where nothing touches or the flank is hollow or so flat that there is no strip.
-
-    The elements of the sector are longer than the contact strip: they give its force and place,
-    and a block of the pad, pressed there on the flank as drawn, the pressure. Both bodies are
-    elastic in it.
-    """
-    contact, pair = turn.state.contact, sector.model.contact
-    assert contact is not None
-    assert pair is not None
-    shares = contact.pressure * pair.weights
-    if not shares.any():
-        return math.nan
-    middle = np.einsum("kg,kgi->i", shares, contact.positions) / shares.sum()
-    sheet = sector.spring.sheet
-    modulus = contact_modulus(*(sheet.elastic_modulus, sheet.poisson_ratio) * 2)
-    try:
-        return pad_pressure(
-            sector.profile,
-            rotated(middle, np.asarray(-turn.state.load.rotation)),
-            float(np.hypot(*contact.force)),
-            half_thickness=sector.spring.tip_half_thickness,
-            sheet=replace(sheet, elastic_modulus=modulus),
-        ).peak_pressure
-    except ValueError:
-        return math.nan
 
 
 def fillet_stress(sector: SectorContact, turn: Turn) -> float:

@@ -131,7 +131,7 @@ def _loaded(spring: Spring, stroke: Stroke) -> Iterator[Step]:
     yield found("sigma_r", "nominal stress at the root",
                 float(stroke.full.nominal_stress[0, 0]), "Pa", _BEAM)  # fmt: skip
     yield found("p_H", "largest pressure on the flank", float(stroke.pressure.max()), "Pa",
-                "Hertz's line contact, Johnson, Eq. 4.45")  # fmt: skip
+                "strip of contact, theory/camshaft.md, 4")  # fmt: skip
     yield found("g", "smallest gap between deformed neighbours", float(stroke.gap.min()), "m",
                 "polygons")  # fmt: skip
 

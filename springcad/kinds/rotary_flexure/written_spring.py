@@ -121,12 +121,25 @@ class Reported:
     written: WrittenDesign
     spring: WrittenSpring
 
+    def first_angle(self, direction: int) -> float:
+        """The smallest that the report has in a direction, a magnitude; the deflection if none."""
+        angles = direction * self.written.array("response.angle_rad")
+        return float(np.min(angles[angles > 0.0], initial=self.spring.deflection))
+
+    def hardest_pressed(self, direction: int) -> float:
+        """Angle of the largest contact pressure in a direction, a magnitude."""
+        angles, pressure = self._over_angle("contact_pressure_Pa")
+        turned = direction * angles > 0.0
+        if not np.any(turned):
+            return self.spring.deflection
+        return float(np.abs(angles[turned][np.argmax(pressure[turned])]))
+
     def torque(self, angle: float) -> float:
         """Magnitude."""
         return abs(self._at("torque_Nm", angle))
 
     def contact_pressure(self, angle: float) -> float:
-        """Hertz's, on the flank."""
+        """Largest on the strip of contact."""
         return self._at("contact_pressure_Pa", angle)
 
     def gap(self, angle: float) -> float:
@@ -151,10 +164,13 @@ class Reported:
         return factor * float(self._bent(angle).nominal_stress[0, 0])
 
     def _at(self, key: str, angle: float) -> float:
+        return float(np.interp(angle, *self._over_angle(key)))
+
+    def _over_angle(self, key: str) -> tuple[Floats, Floats]:
         angles, values = (self.written.array(f"response.{name}") for name in ("angle_rad", key))
         if len(angles) != len(values):
             raise IncompleteDesignError(f"response.{key} and response.angle_rad differ in length")
-        return float(np.interp(angle, angles, values))
+        return angles, values
 
     def _bent(self, angle: float) -> BeamStates:
         station, force = (self._at(key, angle) for key in ("contact_station_m", "contact_force_N"))

@@ -70,6 +70,17 @@ class PadContact:
     places: Floats
     pressures: Floats
 
+    def largest_within(self, share: float) -> float:
+        """Largest pressure within a share of the half width about the middle of the strip [Pa].
+
+        Where the curvature jumps within the strip its square is no parabola. Infinite as
+        ``peak_pressure`` is.
+        """
+        ends = self.places[self.pressures > 0.0][[0, -1]]
+        inside = np.abs(self.places - ends.mean()) < 0.5 * share * np.ptp(ends)
+        largest = float(np.max(self.pressures[inside]))
+        return largest if np.isfinite(self.peak_pressure) else np.inf
+
 
 @dataclass(frozen=True)
 class _Surface:
