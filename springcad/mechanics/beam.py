@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from springcad.mechanics.lobatto import lagrange_basis, lobatto_nodes, running_integral
+from springcad.mechanics.lobatto import lobatto_nodes, running_integral
 from springcad.mechanics.plane import rotated
 from springcad.mechanics.reissner import integrate_back, stiffness
 from springcad.mechanics.section import (
@@ -83,7 +83,7 @@ class BeamStates:
     """The beam under L loads, in the flexure frame; fields at the N = P·n panel nodes.
 
     Nodes at panel edges occur twice. Panels beyond the loaded station have zero length and lie at
-    it; ``deformed_points`` gives the centre line anywhere, with its unloaded end.
+    it; ``centre_line.deformed_points`` gives the centre line anywhere, with its unloaded end.
 
     Attributes:
         end_station: loaded station s_c (L,).
@@ -193,47 +193,6 @@ def follower_load(
     station, axial, transverse, moment = loads
     zero = np.zeros_like(station)
     return _solve(prepared, station, axial, transverse, moment, side=zero, slope=zero)
-
-
-def unloaded_points(prepared: PreparedBeam, stations: Floats) -> tuple[Floats, Floats]:
-    """Centre-line points (..., 2) and tangent angles (...) of the unloaded ribbon."""
-    edges, count = prepared.edges, prepared.beam.nodes_per_panel
-    panel = np.clip(np.searchsorted(edges, stations, side="right") - 1, 0, len(edges) - 2)
-    start, end = edges[panel], edges[panel + 1]
-    basis = lagrange_basis(count, 2.0 * (stations - start) / (end - start) - 1.0)
-    points = np.einsum("...n,...nd->...d", basis, prepared.unloaded_positions[panel])
-    rotation = np.einsum("...n,...n->...", basis, prepared.unloaded_rotation[panel])
-    return points, rotation
-
-
-def deformed_points(
-    prepared: PreparedBeam, states: BeamStates, stations: ArrayLike
-) -> tuple[Floats, Floats]:
-    """Centre-line points (L, M, 2) and tangent angles (L, M) at any stations (M,) or (L, M).
-
-    Beyond the loaded station the unloaded shape goes on, moved with the loaded section.
-    """
-    loads, count = len(states.end_station), prepared.beam.nodes_per_panel
-    edges, s_c = prepared.edges, states.end_station[:, None]
-    s = np.asarray(stations, dtype=np.float64)
-    s = np.broadcast_to(s, (loads, s.shape[-1]))
-    loaded = np.minimum(s, s_c)
-    panel = np.clip(np.searchsorted(edges, loaded, side="right") - 1, 0, len(edges) - 2)
-    start, end = edges[panel], np.minimum(edges[panel + 1], s_c)
-    width = np.where(end > start, end - start, 1.0)
-    basis = lagrange_basis(count, 2.0 * (loaded - start) / width - 1.0)
-    pick = (np.arange(loads)[:, None], panel)
-    rotation = np.einsum("lmn,lmn->lm", basis, states.rotation.reshape(loads, -1, count)[pick])
-    points = np.einsum("lmn,lmnd->lmd", basis, states.positions.reshape(loads, -1, count, 2)[pick])
-    free, free_angle = unloaded_points(prepared, s)
-    free_end, free_end_angle = unloaded_points(prepared, s_c)
-    turn = states.end_rotation[:, None] - free_end_angle
-    tail = s > s_c
-    tail_points = rotated(free - free_end, turn) + states.end_position[:, None, :]
-    return (
-        np.where(tail[..., None], tail_points, points),
-        np.where(tail, free_angle + turn, rotation),
-    )
 
 
 @dataclass(frozen=True)

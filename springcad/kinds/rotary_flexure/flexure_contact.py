@@ -12,14 +12,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from springcad.geometry.ribbon import Ribbon
-from springcad.mechanics.beam import (
-    BeamStates,
-    PreparedBeam,
-    RibbonBeam,
-    contact_load,
-    deformed_points,
-    prepare,
-)
+from springcad.mechanics.beam import BeamStates, PreparedBeam, RibbonBeam, contact_load, prepare
+from springcad.mechanics.centre_line import deformed_points
 from springcad.mechanics.elastic_part import ContactState, ElasticPart
 from springcad.mechanics.plane import rotated
 
