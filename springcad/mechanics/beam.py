@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -95,9 +96,9 @@ class BeamStates:
         energy: elastic energy of bending, stretch, shear and root (L,) [J].
         root_moment: (L,) [N m].
         stations, half_thickness, rotation, moment, axial_force: (L, N).
+        curvature: of the unloaded centre line (L, N).
         positions: (L, N, 2).
-        nominal_stress: 1.5|M|/(t λ²) + |N|/A (L, N) [Pa].
-        local_stress: the same with the curved-beam factor K(λ|κ₀|) on the bending part (L, N).
+        thickness: of the sheet [m].
     """
 
     end_station: Floats
@@ -114,8 +115,27 @@ class BeamStates:
     rotation: Floats
     moment: Floats
     axial_force: Floats
-    nominal_stress: Floats
-    local_stress: Floats
+    curvature: Floats
+    thickness: float
+
+    @cached_property
+    def nominal_stress(self) -> Floats:
+        """1.5|M|/(t λ²) + |N|/A (L, N) [Pa]."""
+        return self._bending_stress + self._direct_stress
+
+    @cached_property
+    def local_stress(self) -> Floats:
+        """The same with the curved-beam factor K(λ|κ₀|) on the bending part (L, N) [Pa]."""
+        factor = curved_beam_factor(self.half_thickness * np.abs(self.curvature))
+        return self._bending_stress * factor + self._direct_stress
+
+    @property
+    def _bending_stress(self) -> Floats:
+        return nominal_bending_stress(self.thickness, self.half_thickness, self.moment)
+
+    @property
+    def _direct_stress(self) -> Floats:
+        return np.abs(self.axial_force) / area(self.thickness, self.half_thickness)
 
     @property
     def peak_nominal_stress(self) -> Floats:
@@ -252,9 +272,6 @@ def _solve(
     end = rotated(-root, turn)
     positions = rotated(fields.positions - root[:, None, None], turn[:, None, None])
     n = rotated(np.array([0.0, 1.0]), turn)
-    bending = nominal_bending_stress(beam.thickness, lam, fields.moment)
-    direct = np.abs(fields.tension) / area(beam.thickness, lam)
-    local = bending * curved_beam_factor(lam * np.abs(curvature)) + direct
     return BeamStates(
         end_station=station,
         end_position=end,
@@ -270,6 +287,6 @@ def _solve(
         rotation=(fields.rotation + turn[:, None, None]).reshape(loads, -1),
         moment=fields.moment.reshape(loads, -1),
         axial_force=fields.tension.reshape(loads, -1),
-        nominal_stress=(bending + direct).reshape(loads, -1),
-        local_stress=local.reshape(loads, -1),
+        curvature=curvature.reshape(loads, -1),
+        thickness=beam.thickness,
     )

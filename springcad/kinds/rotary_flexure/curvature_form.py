@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,6 +101,7 @@ def optimise(
         problem,
         [start_point(problem, seed, index) for index in range(starts)],
         problem.bounds,
+        values=partial(problem, slopes=False),
         progress=progress,
     )
     # A search may end with neighbours that overlap: all rows hold, with a negative gap.
@@ -128,9 +130,11 @@ def reoptimise(
         ]
     )
     problem = CurvatureProblem(flexure, start if freeze else None, len(start) - 3)
-    (solution,) = solve_from_many(problem, [start], problem.bounds)
+    values = partial(problem, slopes=False)
+    (solution,) = solve_from_many(problem, [start], problem.bounds, values=values)
     if solution.violation > FEASIBLE:
-        (solution,) = solve_from_many(problem, [solution.variables], problem.bounds)
+        start = solution.variables
+        (solution,) = solve_from_many(problem, [start], problem.bounds, values=values)
     if solution.violation > FEASIBLE or solution.variables[-1] <= 0.0:
         return None
     near = _optimum(flexure, solution)

@@ -105,14 +105,13 @@ def size_flexure(
     found = find_shape(spec, case, law, progress)
     inputs = case.inputs
     demand = demand_of(target, inputs.root_radius, inputs.contact_radius, inputs.count)
-    fillet, relief = None, 1.0
+    root, relief = None, 1.0
     for number in range(PASSES):
         progress(f"correcting the flexures for full load, pass {number + 1}")
-        if number < FILLETED or fillet is None:
-            root = chosen_root(spec, case, found.ribbon, fillet)
+        if number < FILLETED or root is None:
+            root = chosen_root(spec, case, found.ribbon, root)
         else:
-            root = root_with(spec, case, found.ribbon, fillet)
-        fillet = root.fillet
+            root = root_with(spec, case, found.ribbon, root.fillet)
         beam = flexure_on(spec, case, found.ribbon, root.model.compliance)
         stiffness = stiffness_at_rest(found.ribbon, beam, demand)
         share = stiffness / (SOFTER * demand.stiffness)
