@@ -135,7 +135,8 @@ class _Section:
 class CurvatureProblem:
     """The optimisation problem; variables are (coefficients x lambda_r, S / L, root angle, d).
 
-    Calling it gives objective, constraints and exact gradients.
+    Calling it gives objective, constraints and exact gradients. With ``nearest`` the objective is
+    not the gap but the distance from there; ``weight`` is that of the gap.
     """
 
     def __init__(
@@ -143,8 +144,10 @@ class CurvatureProblem:
         flexure: FlexureProblem,
         nearest: Floats | None = None,
         coefficients: int = COEFFICIENTS,
+        weight: float = 1.0,
     ) -> None:
         self.nearest = nearest
+        self.weight = weight
         self.basis = _basis(coefficients)
         self.coefficients = slice(0, coefficients)
         unit = flexure.root_half_thickness
@@ -170,14 +173,14 @@ class CurvatureProblem:
         return lower, upper
 
     def __call__(self, variables: Floats, *, slopes: bool = True) -> Evaluation:
-        """Values at ``variables`` (V,), with gradients or, in a third of the time, without."""
+        """Values at ``variables`` (V,), with gradients or, in two thirds of the time, without."""
         at = dual.variables(variables) if slopes else dual.variables(variables).bare
         line = self._line(at)
         basis, gap = self.basis, at[-1:]
         section = self._section(line.x, line.bend, self.factor)
         z = section.half_thickness * line.bend
         smooth = line.length * (z * z).mapped(basis.grid.weights[None, :])
-        objective = SMOOTHNESS * smooth - gap
+        objective = self.weight * (SMOOTHNESS * smooth - gap)
         if self.nearest is not None:
             objective = dual.distance(variables, self.nearest, slice(0, -1))
         equalities = self._equalities(line, section)
