@@ -11,7 +11,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from springcad.kinds.rotary_flexure.aim import Aim, Pair
-from springcad.kinds.rotary_flexure.feasibility import failures
+from springcad.kinds.rotary_flexure.feasibility import (
+    STRAIGHT_ROOM,
+    STRAIGHT_TOLERANCE,
+    failures,
+)
 from springcad.kinds.rotary_flexure.inputs import number
 from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
 from springcad.result import Check, check
@@ -77,6 +81,11 @@ def candidate(aim: Aim, pair: Pair) -> Candidate | None:
     if not 0.0 < pair.contact_radius < _root_radius(aim):
         return None
     highest = aim.highest_of(pair)
+    # Only how far a ring turns is found on the exact beam; other aims keep to the closed form.
+    room = STRAIGHT_ROOM if aim.objective == "deflection" else STRAIGHT_TOLERANCE
+
+    def fails(level: int) -> bool:
+        return bool(failures(aim.at(pair, level).case, room))
 
     def law(level: int) -> DesignLaw:
         return design_law(aim.at(pair, level).case.inputs)
@@ -91,9 +100,9 @@ def candidate(aim: Aim, pair: Pair) -> Candidate | None:
     lowest = aim.lowest
     if too_stiff(lowest):
         lowest = last_level(lowest, highest, too_stiff) + 1
-    if lowest > highest or failures(aim.at(pair, lowest).case):
+    if lowest > highest or fails(lowest):
         return None
-    bound = last_level(lowest, highest, lambda level: not failures(aim.at(pair, level).case))
+    bound = last_level(lowest, highest, lambda level: not fails(level))
     straight = last_level(lowest, bound, lambda level: not _waves(law(level)))
     here = law(lowest)
     return Candidate(pair, lowest, straight, bound, here.serpentine_factor / here.straight_factor)

@@ -23,6 +23,7 @@ from springcad.kinds.rotary_flexure.rim import rim_check
 from springcad.kinds.rotary_flexure.screening import Screened, screened
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.kinds.rotary_flexure.straight_limit import STRAIGHT_LIMIT
 from springcad.result import Check, Progress
 
 Build = Callable[[RotaryFlexureSpec, Case, tuple[Check, ...], Progress], Spring]
@@ -127,7 +128,7 @@ class Climb:
             elif design.stop is not None and "camshaft" in design.stop.claim:
                 return
             else:
-                step = max(2 * step, _back(ring, design.stop))
+                step = max(2 * step, _back(ring, design))
                 level = max(level - step, ring.straight) if level > ring.straight else low
 
     def straight(self, rings: Iterable[Candidate]) -> None:
@@ -231,7 +232,10 @@ def _up(ring: Screened, spring: Spring) -> int:
     return max(1, math.floor(WARY * _spare_gap(spring) / ring.fall)) if ring.fall > 0.0 else 1
 
 
-def _back(ring: Screened, stop: Stop | None) -> int:
+def _back(ring: Screened, design: Design) -> int:
+    stop = design.stop
+    if stop is not None and stop.claim == STRAIGHT_LIMIT:
+        return math.ceil(design.level * (1.0 - stop.limit / stop.value))
     if stop is not None and stop.lack is not None and ring.fall > 0.0:
         return max(1, math.ceil(stop.lack / ring.fall))
     return max(1, round(CAUTION * ring.bound))
