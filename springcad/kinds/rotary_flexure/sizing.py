@@ -110,17 +110,21 @@ def size_flexure(
         InfeasibleError: no shape or no fillet fits, the gap is below the smallest wanted, straight
             flexures would bear more than the design stress, or the sizing does not settle.
     """
-    sized = _settled(spec, case, law, target, progress)
+    progress("searching for the shape of the flexures")
+    sized = corrected_for(spec, case, target, find_shape(spec, case, law, progress), progress)
     _require_strength(spec, case, sized, progress)
     _require_room(spec, case, sized)
     return sized
 
 
-def _settled(
-    spec: RotaryFlexureSpec, case: Case, law: DesignLaw, target: Law, progress: Progress
+def corrected_for(
+    spec: RotaryFlexureSpec, case: Case, target: Law, found: Found, progress: Progress
 ) -> Sized:
-    progress("searching for the shape of the flexures")
-    found = find_shape(spec, case, law, progress)
+    """The shape that the search found for the design law, corrected until it is right.
+
+    Raises:
+        InfeasibleError: no shape or no fillet fits, or the sizing does not settle.
+    """
     inputs = case.inputs
     demand = demand_of(target, inputs.root_radius, inputs.contact_radius, inputs.count)
     root, relief = None, 1.0
@@ -227,9 +231,9 @@ def _require_strength(
 
     def level(deflection: float) -> float:
         tried = replace(case, inputs=replace(case.inputs, deflection=deflection))
-        constant = polynomial((case.inputs.stiffness,), deflection)
-        target = law_of(constant, deflection)
-        return _settled(spec, tried, design_law(tried.inputs), target, lambda _: None).level
+        found = find_shape(spec, tried, design_law(tried.inputs), progress)
+        target = law_of(polynomial((case.inputs.stiffness,), deflection), deflection)
+        return corrected_for(spec, tried, target, found, progress).level
 
     progress("looking for the deflection that straight flexures reach")
     raise straight_refusal(case, straight_limit(level, case.inputs.deflection, sized.level))
