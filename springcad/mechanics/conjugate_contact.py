@@ -25,9 +25,6 @@ _BALANCED = 1e-11
 """Relative error of the torque."""
 _CLOSED = 5e-11
 """Relative error of the energy; more than twice that of the torque, with whose square it goes."""
-_SLACK = 1e-3
-"""On the way to the contact the torque is balanced to this share of the excess of energy, so far
-that the sign of the excess is certain."""
 _FOUND = 1e-8
 """A bracket closed on a larger |excess| holds a jump, not a root."""
 _MAX_ITERATIONS = 60
@@ -85,7 +82,7 @@ def find_contacts(
     ladder: list[Trial] = []
     for station in np.linspace(*limits, intervals + 1):
         guess = ladder[-1].force if ladder else unknown
-        ladder.append(balance(part, law, np.full_like(unknown, station), guess, _SLACK))
+        ladder.append(balance(part, law, np.full_like(unknown, station), guess))
     excess = np.stack([trial.excess for trial in ladder])
     crosses = excess[:-1] * excess[1:] <= 0.0
     found: NDArray[np.bool_] = np.asarray(crosses.any(axis=0))
@@ -103,16 +100,13 @@ def find_contacts(
     return Search(found, upper, _pick(ladder, _smallest(-np.abs(excess))))
 
 
-def balance(
-    part: ElasticPart, law: TorqueLaw, station: Floats, guess: Floats, slack: float = 0.0
-) -> Trial:
+def balance(part: ElasticPart, law: TorqueLaw, station: Floats, guess: Floats) -> Trial:
     """The force with which the part gives the torque at each station.
 
     Newton's method on ln(F p/τ); the slope of the arm p is taken from the last two forces.
 
     Args:
         guess: of the force, nan where there is none (A,) [N].
-        slack: relative error of the torque over |excess| that will do.
     """
     blank = np.isnan(guess)
     if blank.any():
@@ -134,9 +128,8 @@ def balance(
             excess = np.log(state.energy / law.energy[rows])
         # Beyond its largest torque a part would give less with more force: no way leads on there.
         spent = slope <= 0.0
-        close = np.abs(error) < np.maximum(_BALANCED, slack * np.abs(excess))
-        done = close & ~spent
-        on = ~close & np.isfinite(error) & ~(spent & (error < 0.0))
+        done = (np.abs(error) < _BALANCED) & ~spent
+        on = (np.abs(error) >= _BALANCED) & np.isfinite(error) & ~(spent & (error < 0.0))
         result.force[rows[done]], result.excess[rows[done]] = force[done], excess[done]
         slope = np.where(slope > 0.0, np.maximum(slope, _LEAST_SLOPE), 1.0)
         rows, last_force, last_arm = rows[on], force[on], state.arm[on]
@@ -157,7 +150,7 @@ def _close(part: ElasticPart, law: TorqueLaw, old: Trial, new: Trial) -> Trial:
         way = new.excess / (new.excess - old.excess)
         station = new.station + way * (old.station - new.station)
         guess = new.force * (old.force / new.force) ** way
-        trial = balance(part, law.at(rows), station, guess, _SLACK)
+        trial = balance(part, law.at(rows), station, guess)
         _put(result, rows, trial)
         with np.errstate(all="ignore"):
             weight = 1.0 - trial.excess / new.excess
