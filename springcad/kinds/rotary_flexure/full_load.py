@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,8 +95,9 @@ def loads_of(
             "deg, nearest to that of the law"
         )
         raise InfeasibleError(claim, held, float(law.energy[first]), "J")
-    forward, backward = (
-        contact_load(beam, search.contact.station[rows], search.contact.force[rows], direction)
-        for direction, rows in zip(DIRECTIONS, (slice(LOADS), slice(LOADS, None)), strict=True)
+    stations, forces = (
+        np.split(values, len(DIRECTIONS))
+        for values in (search.contact.station, search.contact.force)
     )
+    forward, backward = map(partial(contact_load, beam), stations, forces, DIRECTIONS)
     return forward, backward
