@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_bvp, solve_ivp
 
-from springcad.mechanics.beam import BeamStates, PreparedBeam, RibbonBeam, unloaded_points
+from springcad.mechanics.beam import BeamStates, PreparedBeam, RibbonBeam
+from springcad.mechanics.centre_line import unloaded_points
 from springcad.mechanics.plane import rotated
 from springcad.mechanics.section import SHEAR_CORRECTION
 

@@ -20,6 +20,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 from cases import TABLE_I, flexure
+from correction import correction
 from outlines import Ruled, ruled
 from paper_method import PaperMethod, Trial, search
 from rich.console import Console
@@ -35,6 +36,7 @@ from springcad.kinds.rotary_flexure.curvature_form import optimise
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
 from springcad.kinds.rotary_flexure.shape import curvature_ribbon
 
+SPECS = Path(__file__).parents[1] / "specs"
 STARTS = 40
 """Local searches of each of springcad's forms."""
 WHOLE = 6
@@ -280,8 +282,15 @@ def main() -> None:
     with threadpool_limits(1):
         cases = {name: rows(name, options.seconds) for name in TABLE_I}
         wholes = {name: {str(z): whole(name, z) for z in (0.5, 0.3)} for name in TABLE_I}
+        corrections = {name: correction(SPECS / f"{name}.yaml") for name in ("S1", *TABLE_I)}
     for name, lines in cases.items():
         console.print(table(name, lines))
+    for name, c in corrections.items():
+        console.print(
+            f"{name}: correction for full load, {c.passes} passes: {1e3 * c.correction:.0f} ms, "
+            f"{1e3 * c.without_elements:.0f} ms besides the finite elements of the root, "
+            f"{c.correction / c.search:.3g} times the search; warm"
+        )
     for name, times in wholes.items():
         for limit, seconds in times.items():
             console.print(f"{name}: {WHOLE} starts, z <= {limit}: {1e3 * seconds:.0f} ms, warm")
@@ -298,6 +307,7 @@ def main() -> None:
             "whole_optimisation_starts": WHOLE,
             "whole_optimisation_seconds": wholes,
             "startup_seconds": starts,
+            "corrections": {name: asdict(c) for name, c in corrections.items()},
         }
         options.json.write_text(json.dumps(figures, indent=2, allow_nan=False) + "\n")
 

@@ -17,11 +17,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from springcad.mechanics.lobatto import lagrange_basis, lobatto_nodes, running_integral
+from springcad.mechanics.lobatto import lobatto_nodes, running_integral
 from springcad.mechanics.plane import rotated
 from springcad.mechanics.reissner import integrate_back, stiffness
 from springcad.mechanics.section import (
@@ -83,7 +84,7 @@ class BeamStates:
     """The beam under L loads, in the flexure frame; fields at the N = P·n panel nodes.
 
     Nodes at panel edges occur twice. Panels beyond the loaded station have zero length and lie at
-    it; ``deformed_points`` gives the centre line anywhere, with its unloaded end.
+    it; ``centre_line.deformed_points`` gives the centre line anywhere, with its unloaded end.
 
     Attributes:
         end_station: loaded station s_c (L,).
@@ -95,9 +96,9 @@ class BeamStates:
         energy: elastic energy of bending, stretch, shear and root (L,) [J].
         root_moment: (L,) [N m].
         stations, half_thickness, rotation, moment, axial_force: (L, N).
+        curvature: of the unloaded centre line (L, N).
         positions: (L, N, 2).
-        nominal_stress: 1.5|M|/(t λ²) + |N|/A (L, N) [Pa].
-        local_stress: the same with the curved-beam factor K(λ|κ₀|) on the bending part (L, N).
+        thickness: of the sheet [m].
     """
 
     end_station: Floats
@@ -114,8 +115,27 @@ class BeamStates:
     rotation: Floats
     moment: Floats
     axial_force: Floats
-    nominal_stress: Floats
-    local_stress: Floats
+    curvature: Floats
+    thickness: float
+
+    @cached_property
+    def nominal_stress(self) -> Floats:
+        """1.5|M|/(t λ²) + |N|/A (L, N) [Pa]."""
+        return self._bending_stress + self._direct_stress
+
+    @cached_property
+    def local_stress(self) -> Floats:
+        """The same with the curved-beam factor K(λ|κ₀|) on the bending part (L, N) [Pa]."""
+        factor = curved_beam_factor(self.half_thickness * np.abs(self.curvature))
+        return self._bending_stress * factor + self._direct_stress
+
+    @property
+    def _bending_stress(self) -> Floats:
+        return nominal_bending_stress(self.thickness, self.half_thickness, self.moment)
+
+    @property
+    def _direct_stress(self) -> Floats:
+        return np.abs(self.axial_force) / area(self.thickness, self.half_thickness)
 
     @property
     def peak_nominal_stress(self) -> Floats:
@@ -195,47 +215,6 @@ def follower_load(
     return _solve(prepared, station, axial, transverse, moment, side=zero, slope=zero)
 
 
-def unloaded_points(prepared: PreparedBeam, stations: Floats) -> tuple[Floats, Floats]:
-    """Centre-line points (..., 2) and tangent angles (...) of the unloaded ribbon."""
-    edges, count = prepared.edges, prepared.beam.nodes_per_panel
-    panel = np.clip(np.searchsorted(edges, stations, side="right") - 1, 0, len(edges) - 2)
-    start, end = edges[panel], edges[panel + 1]
-    basis = lagrange_basis(count, 2.0 * (stations - start) / (end - start) - 1.0)
-    points = np.einsum("...n,...nd->...d", basis, prepared.unloaded_positions[panel])
-    rotation = np.einsum("...n,...n->...", basis, prepared.unloaded_rotation[panel])
-    return points, rotation
-
-
-def deformed_points(
-    prepared: PreparedBeam, states: BeamStates, stations: ArrayLike
-) -> tuple[Floats, Floats]:
-    """Centre-line points (L, M, 2) and tangent angles (L, M) at any stations (M,) or (L, M).
-
-    Beyond the loaded station the unloaded shape goes on, moved with the loaded section.
-    """
-    loads, count = len(states.end_station), prepared.beam.nodes_per_panel
-    edges, s_c = prepared.edges, states.end_station[:, None]
-    s = np.asarray(stations, dtype=np.float64)
-    s = np.broadcast_to(s, (loads, s.shape[-1]))
-    loaded = np.minimum(s, s_c)
-    panel = np.clip(np.searchsorted(edges, loaded, side="right") - 1, 0, len(edges) - 2)
-    start, end = edges[panel], np.minimum(edges[panel + 1], s_c)
-    width = np.where(end > start, end - start, 1.0)
-    basis = lagrange_basis(count, 2.0 * (loaded - start) / width - 1.0)
-    pick = (np.arange(loads)[:, None], panel)
-    rotation = np.einsum("lmn,lmn->lm", basis, states.rotation.reshape(loads, -1, count)[pick])
-    points = np.einsum("lmn,lmnd->lmd", basis, states.positions.reshape(loads, -1, count, 2)[pick])
-    free, free_angle = unloaded_points(prepared, s)
-    free_end, free_end_angle = unloaded_points(prepared, s_c)
-    turn = states.end_rotation[:, None] - free_end_angle
-    tail = s > s_c
-    tail_points = rotated(free - free_end, turn) + states.end_position[:, None, :]
-    return (
-        np.where(tail[..., None], tail_points, points),
-        np.where(tail, free_angle + turn, rotation),
-    )
-
-
 @dataclass(frozen=True)
 class _Loaded:
     """The part of the beam between root and loaded stations, at its nodes (L, P, n).
@@ -293,9 +272,6 @@ def _solve(
     end = rotated(-root, turn)
     positions = rotated(fields.positions - root[:, None, None], turn[:, None, None])
     n = rotated(np.array([0.0, 1.0]), turn)
-    bending = nominal_bending_stress(beam.thickness, lam, fields.moment)
-    direct = np.abs(fields.tension) / area(beam.thickness, lam)
-    local = bending * curved_beam_factor(lam * np.abs(curvature)) + direct
     return BeamStates(
         end_station=station,
         end_position=end,
@@ -311,6 +287,6 @@ def _solve(
         rotation=(fields.rotation + turn[:, None, None]).reshape(loads, -1),
         moment=fields.moment.reshape(loads, -1),
         axial_force=fields.tension.reshape(loads, -1),
-        nominal_stress=(bending + direct).reshape(loads, -1),
-        local_stress=local.reshape(loads, -1),
+        curvature=curvature.reshape(loads, -1),
+        thickness=beam.thickness,
     )

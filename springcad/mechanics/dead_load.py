@@ -10,7 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from springcad.mechanics.beam import BeamStates, PreparedBeam, follower_load, unloaded_points
+from springcad.mechanics.beam import BeamStates, PreparedBeam, follower_load
+from springcad.mechanics.centre_line import unloaded_points
 
 Floats = NDArray[np.float64]
 

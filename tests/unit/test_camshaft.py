@@ -29,13 +29,8 @@ from springcad.kinds.rotary_flexure.camshaft import (
 from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
 from springcad.kinds.rotary_flexure.flank_pressure import flank_strips
 from springcad.kinds.rotary_flexure.flexure_contact import flexure_part
-from springcad.mechanics.beam import (
-    PreparedBeam,
-    RibbonBeam,
-    contact_load,
-    prepare,
-    unloaded_points,
-)
+from springcad.mechanics.beam import PreparedBeam, RibbonBeam, contact_load, prepare
+from springcad.mechanics.centre_line import unloaded_points
 from springcad.mechanics.conjugate import Flank
 from springcad.mechanics.contact import contact_modulus, peak_pressure
 from springcad.mechanics.fem.assembly import Sheet

@@ -8,15 +8,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from springcad.mechanics.beam import (
-    BeamStates,
-    PreparedBeam,
-    RibbonBeam,
-    contact_load,
-    deformed_points,
-    prepare,
-    unloaded_points,
-)
+from springcad.mechanics.beam import BeamStates, PreparedBeam, RibbonBeam, contact_load, prepare
+from springcad.mechanics.centre_line import deformed_points, unloaded_points
 
 E_MODULUS, SHEAR_MODULUS, THICKNESS = 200e9, 77e9, 4.5e-3
 LENGTH, PAD = 24e-3, 0.5e-3

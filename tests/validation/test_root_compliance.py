@@ -29,7 +29,8 @@ from springcad.kinds.rotary_flexure.sector_blocks import COARSE, FINE, Density
 from springcad.kinds.rotary_flexure.sector_mesh import sector_mesh
 from springcad.kinds.rotary_flexure.sector_skeleton import SectorGeometry
 from springcad.kinds.rotary_flexure.shape import straight_ribbon
-from springcad.mechanics.beam import PreparedBeam, follower_load, prepare, unloaded_points
+from springcad.mechanics.beam import PreparedBeam, follower_load, prepare
+from springcad.mechanics.centre_line import unloaded_points
 from springcad.mechanics.dead_load import dead_load
 from springcad.mechanics.fem.assembly import Sheet, edge_load, prepare_solid
 from springcad.mechanics.fem.blocks import graded, join, straight, transfinite

@@ -15,11 +15,8 @@ from scipy.integrate import quad
 
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.clearance import flexure_gap
-from springcad.kinds.rotary_flexure.curvature_form import (
-    CurvatureProblem,
-    optimise,
-    start_point,
-)
+from springcad.kinds.rotary_flexure.curvature_form import optimise, start_point
+from springcad.kinds.rotary_flexure.curvature_problem import CurvatureProblem
 from springcad.kinds.rotary_flexure.shape import curvature_ribbon
 from springcad.mechanics.section import curved_beam_factor
 

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from springcad.kinds.leaf_2dof.leaf import Leaf, Lever
 from springcad.kinds.leaf_2dof.seating import away, rest_offset, seat, shear_modulus
-from springcad.mechanics.beam import deformed_points
+from springcad.mechanics.centre_line import deformed_points
 from springcad.mechanics.contact import peak_pressure
 from springcad.mechanics.section import SHEAR_CORRECTION, area
 

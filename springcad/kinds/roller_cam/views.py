@@ -19,7 +19,8 @@ from springcad.kinds.roller_cam.joint import Cantilever, Roller
 from springcad.kinds.roller_cam.made import MadeJoint
 from springcad.kinds.roller_cam.part import roller_contact
 from springcad.kinds.roller_cam.tip import rooted_beam
-from springcad.mechanics.beam import deformed_points, follower_load
+from springcad.mechanics.beam import follower_load
+from springcad.mechanics.centre_line import deformed_points
 from springcad.mechanics.plane import rotated
 from springcad.result import Dimension, Shape, View
 

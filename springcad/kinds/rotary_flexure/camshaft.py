@@ -27,8 +27,9 @@ from springcad.kinds.rotary_flexure.flexure_contact import (
     global_points,
 )
 from springcad.kinds.rotary_flexure.room import hub_shear_stress
-from springcad.mechanics.beam import PreparedBeam, unloaded_points
+from springcad.mechanics.beam import PreparedBeam
 from springcad.mechanics.cam_contact import Seat, seat
+from springcad.mechanics.centre_line import unloaded_points
 from springcad.mechanics.conjugate import Flank, at_rows, conjugate_flank, hertz_half_width
 from springcad.mechanics.contact import contact_modulus
 from springcad.mechanics.fem.assembly import Sheet

@@ -14,7 +14,11 @@ import numpy as np
 
 from springcad.kinds.rotary_flexure.aim import Aim, Pair, Trial
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs
-from springcad.kinds.rotary_flexure.feasibility import failures
+from springcad.kinds.rotary_flexure.feasibility import (
+    STRAIGHT_ROOM,
+    STRAIGHT_TOLERANCE,
+    failures,
+)
 from springcad.kinds.rotary_flexure.inputs import number, target_of
 from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
 from springcad.kinds.rotary_flexure.room import hub_shear_stress
@@ -88,6 +92,8 @@ def candidate(aim: Aim, pair: Pair) -> Candidate | None:
     if not 0.0 < pair.contact_radius < _root_radius(aim):
         return None
     highest = aim.highest_of(pair)
+    # Only how far a ring turns is found on the exact beam; other aims keep to the closed form.
+    room = STRAIGHT_ROOM if aim.objective == "deflection" else STRAIGHT_TOLERANCE
 
     def law(level: int) -> DesignLaw:
         return design_law(aim.at(pair, level).case.inputs)
@@ -102,19 +108,23 @@ def candidate(aim: Aim, pair: Pair) -> Candidate | None:
     lowest = aim.lowest
     if too_stiff(lowest):
         lowest = last_level(lowest, highest, too_stiff) + 1
-    if lowest > highest or forbidden(aim.at(pair, lowest)):
+    if lowest > highest or forbidden(aim.at(pair, lowest), room):
         return None
-    bound = last_level(lowest, highest, lambda level: not failures(aim.at(pair, level).case))
-    if forbidden(aim.at(pair, bound)):
-        bound = last_level(lowest, bound, lambda level: not forbidden(aim.at(pair, level)))
+    bound = last_level(lowest, highest, lambda level: not failures(aim.at(pair, level).case, room))
+    if forbidden(aim.at(pair, bound), room):
+        bound = last_level(lowest, bound, lambda level: not forbidden(aim.at(pair, level), room))
     straight = last_level(lowest, bound, lambda level: not _waves(law(level)))
     here = law(lowest)
     return Candidate(pair, lowest, straight, bound, here.serpentine_factor / here.straight_factor)
 
 
-def forbidden(trial: Trial) -> tuple[str, ...]:
-    """The closed forms that a ring fails, with the torsion of its camshaft as it will be drawn."""
-    failed = failures(trial.case)
+def forbidden(trial: Trial, straight_room: float = STRAIGHT_ROOM) -> tuple[str, ...]:
+    """The closed forms that a ring fails, with the torsion of its camshaft as it will be drawn.
+
+    Args:
+        straight_room: as in ``failures``.
+    """
+    failed = failures(trial.case, straight_room)
     limit = SURE * trial.case.yield_strength / math.sqrt(3.0)
     return failed or ((WEAK_CORE,) if core_shear(trial) > limit else ())
 

@@ -14,7 +14,8 @@ import shapely.affinity
 from numpy.typing import NDArray
 
 from springcad.geometry.ribbon import Ribbon
-from springcad.mechanics.beam import BeamStates, PreparedBeam, deformed_points
+from springcad.mechanics.beam import BeamStates, PreparedBeam
+from springcad.mechanics.centre_line import deformed_points
 
 Floats = NDArray[np.float64]
 

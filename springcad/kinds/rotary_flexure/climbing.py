@@ -23,6 +23,7 @@ from springcad.kinds.rotary_flexure.rim import rim_check
 from springcad.kinds.rotary_flexure.screening import Screened, screened
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.kinds.rotary_flexure.straight_limit import STRAIGHT_LIMIT
 from springcad.result import Check, Progress
 
 Build = Callable[[RotaryFlexureSpec, Case, tuple[Check, ...], Progress], Spring]
@@ -134,7 +135,7 @@ class Climb:
             elif stop is not None and "camshaft" in stop.claim:
                 return
             else:
-                step = max(2 * step, _back(ring, stop))
+                step = max(2 * step, _back(ring, design))
                 level = max(level - step, ring.straight) if level > ring.straight else low
         if low >= least:
             ahead = spare / fall if fall > 0.0 else 1.0
@@ -264,7 +265,10 @@ def _ahead(levels: int, spare: float, fall: float, stop: Stop | None) -> int:
     return max(1, math.floor(levels * spare / (spare + stop.lack)))
 
 
-def _back(ring: Screened, stop: Stop | None) -> int:
+def _back(ring: Screened, design: Design) -> int:
+    stop = design.stop
+    if stop is not None and stop.claim == STRAIGHT_LIMIT:
+        return math.ceil(design.level * (1.0 - stop.limit / stop.value))
     if stop is not None and stop.lack is not None and ring.fall > 0.0:
         return max(1, math.ceil(stop.lack / ring.fall))
     return max(1, round(CAUTION * ring.bound))

@@ -20,7 +20,8 @@ from springcad.geometry.neighbours import neighbour_gaps, zone_index, zone_minim
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.problem import Correction, FlexureProblem
 from springcad.kinds.rotary_flexure.shape import law_half_thickness
-from springcad.mechanics.beam import BeamStates, PreparedBeam, deformed_points
+from springcad.mechanics.beam import BeamStates, PreparedBeam
+from springcad.mechanics.centre_line import deformed_points
 
 Floats = NDArray[np.float64]
 

@@ -25,6 +25,7 @@ from springcad.kinds.rotary_flexure.sizing import Sized, size_flexure
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.kinds.rotary_flexure.stack import of_sheet, stack_of
+from springcad.kinds.rotary_flexure.straight_limit import STRAIGHT_LIMIT
 from springcad.kinds.rotary_flexure.summary import summarise
 from springcad.kinds.rotary_flexure.trials import (
     BEND_LIMIT,
@@ -75,6 +76,8 @@ def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
     try:
         return spring_of(spec, case, feasibility, progress)
     except InfeasibleError as error:
+        if error.claim == STRAIGHT_LIMIT:  # It says already what helps.
+            raise
         progress("no part can be made: trying what would help")
         bends = resolved_style(design_law(case.inputs), case.style) == "serpentine"
         knobs = (*([BEND_LIMIT] if bends else []), DEFLECTION, THICKER_TIP, THINNER_TIP)

@@ -12,14 +12,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from springcad.geometry.ribbon import Ribbon
-from springcad.mechanics.beam import (
-    BeamStates,
-    PreparedBeam,
-    RibbonBeam,
-    contact_load,
-    deformed_points,
-    prepare,
-)
+from springcad.mechanics.beam import BeamStates, PreparedBeam, RibbonBeam, contact_load, prepare
+from springcad.mechanics.centre_line import deformed_points
 from springcad.mechanics.elastic_part import ContactState, ElasticPart
 from springcad.mechanics.plane import rotated
 
@@ -70,20 +64,22 @@ def flexure_part(
 ) -> ElasticPart:
     """The flexure pressed by the camshaft turning in ``direction`` (+1 counter-clockwise).
 
-    The camshaft carries the profile; its mate is the flat pad, and stations are arc lengths.
+    The camshaft carries the profile; its mate is the flat pad, and stations are arc lengths. A
+    negative angle turns it the other way, and it pushes from the other side.
     ``friction`` is the tangential over the normal force on the flexure, positive towards the tip.
     """
 
     def part(angle: Floats, force: Floats, station: Floats) -> ContactState:
-        states = contact_load(beam, station, force, direction, friction)
+        side = np.where(angle < 0.0, -direction, direction)
+        states = contact_load(beam, station, force, side, friction)
         back = -direction * angle
         point = rotated(global_points(states.point, root_radius), back)
         normal = rotated(-states.normal, back)
-        tangent = direction * np.stack([normal[:, 1], -normal[:, 0]], axis=-1)
+        tangent = side[:, None] * np.stack([normal[:, 1], -normal[:, 0]], axis=-1)
         unit_force = friction * tangent - normal
         moment = point[:, 0] * unit_force[:, 1] - point[:, 1] * unit_force[:, 0]
         return ContactState(
-            arm=direction * moment,
+            arm=side * moment,
             reach=np.hypot(*point.T),
             energy=states.energy,
             point=point,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,18 +80,24 @@ def loads_of(
     nose = NOSE_ALLOWANCE * float(ribbon.half_thickness[-1])
     before = ribbon.length - pad
     limits = (max(before - pad, 0.5 * before), ribbon.length + nose)
-    law = TorqueLaw(demand.law.angle, share * demand.law.torque, share * demand.law.energy)
-    states = []
-    for direction in DIRECTIONS:
-        search = find_contacts(flexure_part(beam, demand.root_radius, direction), law, limits, 1)
-        if not search.found.all():
-            first = int(np.argmin(search.found))
-            held = float(law.energy[first] * np.exp(search.contact.excess[first]))
-            claim = (
-                f"energy of a flexure that gives the torque at {np.degrees(law.angle[first]):.4g} "
-                "deg, nearest to that of the law"
-            )
-            raise InfeasibleError(claim, held, float(law.energy[first]), "J")
-        contact = search.contact
-        states.append(contact_load(beam, contact.station, contact.force, direction))
-    return states[0], states[1]
+    one = demand.law
+    law = TorqueLaw(
+        np.concatenate([direction * one.angle for direction in DIRECTIONS]),
+        share * np.tile(one.torque, len(DIRECTIONS)),
+        share * np.tile(one.energy, len(DIRECTIONS)),
+    )
+    search = find_contacts(flexure_part(beam, demand.root_radius, 1), law, limits, 1)
+    if not search.found.all():
+        first = int(np.argmin(search.found))
+        held = float(law.energy[first] * np.exp(search.contact.excess[first]))
+        claim = (
+            f"energy of a flexure that gives the torque at {abs(np.degrees(law.angle[first])):.4g} "
+            "deg, nearest to that of the law"
+        )
+        raise InfeasibleError(claim, held, float(law.energy[first]), "J")
+    stations, forces = (
+        np.split(values, len(DIRECTIONS))
+        for values in (search.contact.station, search.contact.force)
+    )
+    forward, backward = map(partial(contact_load, beam), stations, forces, DIRECTIONS)
+    return forward, backward

@@ -25,9 +25,14 @@ from springcad.mechanics.beam import PreparedBeam
 
 LARGEST_FILLET = 0.5
 """Largest fillet radius over root thickness: beyond it the stress hardly falls any more."""
+FIRST_FILLET = 0.25
+"""The first one tried at the root of a flexure that leans there, near what is chosen."""
+STIFFENING = 50.0
+"""By so much a fillet as large as the root is thick lowers the coefficient of the root compliance:
+40 to 60 near zero where a flexure leans at its root; 11 where it is straight, but there zero is
+beyond ``LARGEST_FILLET``."""
 BLEND_OVER_SMALLEST = 1.5
 """Radius between taper and pad, over the smallest inside radius of the process."""
-_SECANTS = 12
 
 
 @dataclass(frozen=True)
@@ -38,11 +43,14 @@ class Root:
         fillet: root fillet radius, m.
         blend: radius between taper and pad, m.
         model: what the root adds to a clamped beam.
+        stiffening: by how much a fillet as large as the root is thick would lower the coefficient
+            of the compliance, as far as is known.
     """
 
     fillet: float
     blend: float
     model: RootModel
+    stiffening: float = STIFFENING
 
 
 def root_with(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float) -> Root:
@@ -62,47 +70,51 @@ def root_with(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float
     return Root(fits, blend_radius(spec), model)
 
 
-def chosen_root(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, earlier: float | None) -> Root:
+def chosen_root(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, earlier: Root | None) -> Root:
     """The root with the fillet asked for, or the largest that leaves it no stiffer than a clamp.
 
     A larger one would lower the stress in the fillet, but take bending out of the flexure, which
-    must then be longer: it costs gap. ``earlier`` is the choice for a shape much like this one.
-    A fillet that is asked for and does not fit gives way to the largest that does.
+    must then be longer: it costs gap. From ``earlier``, the choice for a shape much like this one,
+    one Newton step is enough: what it leaves is less than the next change of shape makes. A fillet
+    that is asked for and does not fit gives way to the largest that does.
     """
     asked = spec.flexures.root_fillet
     if not isinstance(asked, str):
         return root_with(spec, case, ribbon, asked)
     inputs, smallest = case.inputs, spec.process.rules.min_inside_radius
-    thickness = 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
-    wanted = max(math.floor(LARGEST_FILLET * thickness / FILLET_STEP) * FILLET_STEP, smallest)
-    fits = largest_fillet(ribbon, inputs.root_radius, inputs.count, smallest, wanted)
-    balanced = _zero(
-        lambda radius: _model(spec, case, ribbon, radius).compliance,
-        min(fits, fits if earlier is None else earlier),
-        (smallest, fits),
-    )
-    steps = round(balanced / FILLET_STEP) * FILLET_STEP
-    return root_with(spec, case, ribbon, min(fits, max(smallest, steps)))
+    thickness = _root_thickness(ribbon)
+    largest = max(_in_steps(math.floor, LARGEST_FILLET * thickness), smallest)
+    fits = largest_fillet(ribbon, inputs.root_radius, inputs.count, smallest, largest)
+    if earlier is not None:
+        first, slope = earlier.fillet, earlier.stiffening
+    else:
+        leans = ribbon.root_angle != 0.0
+        first = _in_steps(round, FIRST_FILLET * thickness) if leans else fits
+        slope = STIFFENING
+
+    def within(radius: float) -> float:
+        return min(fits, max(smallest, radius))
+
+    def excess(radius: float) -> float:
+        """Coefficient of the root compliance: what the fillet leaves of the rim's softness."""
+        unit = root_unit(inputs.elastic_modulus, inputs.thickness, thickness)
+        return _model(spec, case, ribbon, radius).compliance / unit
+
+    tried = within(first)
+    chosen = within(tried + _in_steps(round, excess(tried) / slope * thickness))
+    if chosen != tried:
+        fell = (excess(tried) - excess(chosen)) * thickness / (chosen - tried)
+        slope = min(max(fell, 0.5 * STIFFENING), 2.0 * STIFFENING)
+    return replace(root_with(spec, case, ribbon, chosen), stiffening=slope)
 
 
-def _zero(falling: Callable[[float], float], start: float, within: tuple[float, float]) -> float:
-    """Where a falling function is zero, to half a step of the fillet, by secants from ``start``.
+def _in_steps(whole: Callable[[float], int], length: float) -> float:
+    """A length as a whole number of steps of the fillet, m."""
+    return whole(length / FILLET_STEP) * FILLET_STEP
 
-    The nearer end where it is zero nowhere within.
-    """
-    low, high = within
-    before, here = start, max(low, 0.85 * start)
-    value_before, value = falling(before), falling(here)
-    for _ in range(_SECANTS):
-        if value == value_before:
-            return here
-        there = here - value * (here - before) / (value - value_before)
-        there = min(max(there, low), high)
-        if abs(there - here) < 0.5 * FILLET_STEP:
-            return there
-        before, value_before = here, value
-        here, value = there, falling(there)
-    return here
+
+def _root_thickness(ribbon: Ribbon) -> float:
+    return 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
 
 
 def flexure_on(
@@ -132,8 +144,7 @@ def _model(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float) -
 
 def _calibrated(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, model: RootModel) -> RootModel:
     """The root with what a bench test has found beyond the finite elements."""
-    thickness = 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
-    unit = root_unit(case.inputs.elastic_modulus, case.inputs.thickness, thickness)
+    unit = root_unit(case.inputs.elastic_modulus, case.inputs.thickness, _root_thickness(ribbon))
     return replace(model, compliance=model.compliance + root_coefficient(spec) * unit)
 
 

@@ -97,6 +97,11 @@ def root_model(
     return _root_model(_Root(beam, sector, mounting, density))
 
 
+def forget_roots() -> None:
+    """Whoever measures times starts afresh."""
+    _root_model.cache_clear()
+
+
 @dataclass(frozen=True, eq=False)
 class _Root:
     """What a root model follows from; two are equal if all their numbers are."""

@@ -12,11 +12,8 @@ from scipy.interpolate import BSpline
 
 from springcad.geometry.panels import panel_grid
 from springcad.geometry.ribbon import ORDER, Ribbon
-from springcad.kinds.rotary_flexure.curvature_form import (
-    DEGREE,
-    CurvatureOptimum,
-    curvature_knots,
-)
+from springcad.kinds.rotary_flexure.curvature_form import CurvatureOptimum
+from springcad.kinds.rotary_flexure.curvature_problem import DEGREE, curvature_knots
 from springcad.kinds.rotary_flexure.problem import FlexureProblem, bend_thickening
 
 Floats = NDArray[np.float64]

@@ -27,14 +27,20 @@ from springcad.kinds.rotary_flexure.correction import (
 )
 from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.full_load import demand_of, loads_of, stiffness_at_rest
-from springcad.kinds.rotary_flexure.law import DesignLaw
+from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
 from springcad.kinds.rotary_flexure.ring import FILLET_STEP
 from springcad.kinds.rotary_flexure.root import Root, chosen_root, flexure_on, root_with
 from springcad.kinds.rotary_flexure.root_compliance import RootModel
 from springcad.kinds.rotary_flexure.search import Found, adapted, find_shape
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
-from springcad.kinds.target_law import Law
+from springcad.kinds.rotary_flexure.straight_limit import (
+    STRAIGHT_EXCESS,
+    STRAIGHT_STRESS,
+    straight_limit,
+    straight_refusal,
+)
+from springcad.kinds.target_law import Law, law_of, polynomial
 from springcad.mechanics.beam import BeamStates, PreparedBeam
 from springcad.result import Progress
 
@@ -78,6 +84,8 @@ class Sized:
             sake.
         evenness: largest deviation of the stress at full load from the allowed one before the pad,
             as a share.
+        level: stress of a straight flexure over the allowed one, the same before the pad; 1 for a
+            serpentine one, whose length makes it so.
         passes: corrections of the shape that were made.
     """
 
@@ -89,6 +97,7 @@ class Sized:
     stiffness_at_rest: float
     root_relief: float
     evenness: float
+    level: float
     passes: int
 
 
@@ -98,21 +107,33 @@ def size_flexure(
     """Shape, fillet and root of the flexures for the torque law ``target``.
 
     Raises:
-        InfeasibleError: no shape or no fillet fits, the gap is below the smallest wanted, or the
-            sizing does not settle.
+        InfeasibleError: no shape or no fillet fits, the gap is below the smallest wanted, straight
+            flexures would bear more than the design stress, or the sizing does not settle.
     """
     progress("searching for the shape of the flexures")
-    found = find_shape(spec, case, law, progress)
+    sized = corrected_for(spec, case, target, find_shape(spec, case, law, progress), progress)
+    _require_strength(spec, case, sized, progress)
+    _require_room(spec, case, sized)
+    return sized
+
+
+def corrected_for(
+    spec: RotaryFlexureSpec, case: Case, target: Law, found: Found, progress: Progress
+) -> Sized:
+    """The shape that the search found for the design law, corrected until it is right.
+
+    Raises:
+        InfeasibleError: no shape or no fillet fits, or the sizing does not settle.
+    """
     inputs = case.inputs
     demand = demand_of(target, inputs.root_radius, inputs.contact_radius, inputs.count)
-    fillet, relief = None, 1.0
+    root, relief = None, 1.0
     for number in range(PASSES):
         progress(f"correcting the flexures for full load, pass {number + 1}")
-        if number < FILLETED or fillet is None:
-            root = chosen_root(spec, case, found.ribbon, fillet)
+        if number < FILLETED or root is None:
+            root = chosen_root(spec, case, found.ribbon, root)
         else:
-            root = root_with(spec, case, found.ribbon, fillet)
-        fillet = root.fillet
+            root = root_with(spec, case, found.ribbon, root.fillet)
         beam = flexure_on(spec, case, found.ribbon, root.model.compliance)
         stiffness = stiffness_at_rest(found.ribbon, beam, demand)
         share = stiffness / (SOFTER * demand.stiffness)
@@ -129,11 +150,11 @@ def size_flexure(
             stiffness_at_rest=case.inputs.count * stiffness,
             root_relief=relief,
             evenness=load.unevenness(found.ribbon, level),
+            level=level,
             passes=number,
         )
         as_stiff = abs(share - 1.0) <= CLOSE
         if as_stiff and (sized.evenness <= EVEN or number == PASSES - 1):
-            _require_room(spec, case, sized)
             return sized
         problem = corrected(found.problem, found.ribbon, load, level)
         if found.line and number < SHAPED:
@@ -196,6 +217,26 @@ def _with_allowance(
 ) -> FlexureProblem:
     allowance = gap_allowance(ribbon, beam, states, problem.root_radius, problem.count)
     return replace(problem, gap_allowance=allowance)
+
+
+def _require_strength(
+    spec: RotaryFlexureSpec, case: Case, sized: Sized, progress: Progress
+) -> None:
+    """Refuse straight flexures that are too weak, with the deflection that they do reach."""
+    if sized.level <= 1.0 + STRAIGHT_EXCESS:
+        return
+    if case.law is not None:
+        allowed = case.inputs.design_stress
+        raise InfeasibleError(STRAIGHT_STRESS, sized.level * allowed, allowed, "Pa")
+
+    def level(deflection: float) -> float:
+        tried = replace(case, inputs=replace(case.inputs, deflection=deflection))
+        found = find_shape(spec, tried, design_law(tried.inputs), progress)
+        target = law_of(polynomial((case.inputs.stiffness,), deflection), deflection)
+        return corrected_for(spec, tried, target, found, progress).level
+
+    progress("looking for the deflection that straight flexures reach")
+    raise straight_refusal(case, straight_limit(level, case.inputs.deflection, sized.level))
 
 
 def _require_room(spec: RotaryFlexureSpec, case: Case, sized: Sized) -> None:
