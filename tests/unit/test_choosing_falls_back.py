@@ -11,10 +11,10 @@ from rotary_cases import rotary_model
 from springcad.errors import InfeasibleError, SpecError
 from springcad.kinds.rotary_flexure.aim import Aim
 from springcad.kinds.rotary_flexure.candidates import candidates
+from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.choosing import choose
 from springcad.kinds.rotary_flexure.climbing import Climb
 from springcad.kinds.rotary_flexure.design import spring_of
-from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.result import Check, Progress

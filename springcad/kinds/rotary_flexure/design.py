@@ -8,15 +8,11 @@ from springcad.geometry.outline_ops import profile_area, profile_faults
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.aim import is_open
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
+from springcad.kinds.rotary_flexure.case import Case, resolved_style
 from springcad.kinds.rotary_flexure.checks import spring_checks
 from springcad.kinds.rotary_flexure.choice_report import with_choice
 from springcad.kinds.rotary_flexure.choosing import Choice, choose
-from springcad.kinds.rotary_flexure.feasibility import (
-    Case,
-    failures,
-    require_feasible,
-    resolved_style,
-)
+from springcad.kinds.rotary_flexure.feasibility import failures, require_feasible
 from springcad.kinds.rotary_flexure.full_load import DIRECTIONS
 from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
 from springcad.kinds.rotary_flexure.law import design_law

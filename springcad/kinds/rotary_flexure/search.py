@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
+from springcad.kinds.rotary_flexure.case import Case, resolved_style
 from springcad.kinds.rotary_flexure.clearance import flexure_gap
 from springcad.kinds.rotary_flexure.control_points import (
     ControlPointOutcome,
@@ -13,7 +14,6 @@ from springcad.kinds.rotary_flexure.control_points import (
     reoptimise_control_points,
 )
 from springcad.kinds.rotary_flexure.curvature_form import CurvatureOptimum, optimise, reoptimise
-from springcad.kinds.rotary_flexure.feasibility import Case, resolved_style
 from springcad.kinds.rotary_flexure.law import DesignLaw
 from springcad.kinds.rotary_flexure.problem import FlexureProblem, thickened
 from springcad.kinds.rotary_flexure.shape import curvature_ribbon, straight_ribbon

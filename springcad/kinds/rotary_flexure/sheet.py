@@ -8,8 +8,9 @@ from springcad.errors import InfeasibleError
 from springcad.kinds.law_sheet import law_steps
 from springcad.kinds.rotary_flexure.aim import Aim, is_open
 from springcad.kinds.rotary_flexure.candidates import range_checks
+from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.design import decide
-from springcad.kinds.rotary_flexure.feasibility import Case, feasibility_checks
+from springcad.kinds.rotary_flexure.feasibility import feasibility_checks
 from springcad.kinds.rotary_flexure.inputs import case_of, joint_target_of, number, rotary_spec
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.sheet_law import law_section, room_section

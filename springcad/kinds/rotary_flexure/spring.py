@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from springcad.geometry.outline import Profile
 from springcad.kinds.rotary_flexure.camshaft import Camshaft, CamshaftInputs
-from springcad.kinds.rotary_flexure.feasibility import Case
+from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.law import DesignLaw
 from springcad.kinds.rotary_flexure.overrange import EndOfUse
 from springcad.kinds.rotary_flexure.response import Stroke
