@@ -116,19 +116,19 @@ def _material_and_process(case: Case, law: DesignLaw) -> tuple[Check, ...]:
 def _serpentine_factor(case: Case, law: DesignLaw) -> tuple[Check, ...]:
     """Straight flexures may be too strong but not too weak; waves cannot be shorter than straight.
 
-    Above the limit a straight flexure has (f_s / limit)^(2/3) times the design stress.
+    Above the limit a straight flexure has (f_s / limit)^(2/3) times the design stress; below it, it
+    is made thicker and bears less. ``auto`` takes the style that will do.
     """
     straight = law.straight_factor
     source = f"004, section II-B, with the tip thickness; a straight flexure has {straight:.4f}"
-    lower = straight * (1.0 - STRAIGHT_TOLERANCE) if case.style == "auto" else straight
-    if case.style == "straight":
+    if resolved_style(law, case.style) == "straight":
         return (
             check("serpentine factor of a straight flexure", law.serpentine_factor, "<=",
                   straight * (1.0 + STRAIGHT_TOLERANCE), "1", source=source),
         )  # fmt: skip
     return (
         check("serpentine factor (below it a straight flexure is already too soft)",
-              law.serpentine_factor, ">=", lower, "1", source=source),
+              law.serpentine_factor, ">=", straight, "1", source=source),
     )  # fmt: skip
 
 
