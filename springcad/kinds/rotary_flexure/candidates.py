@@ -54,7 +54,7 @@ class Candidate:
 
 def candidates(aim: Aim) -> tuple[Candidate, ...]:
     """Rings over the whole range of what is open, those first that need waves least."""
-    found = [c for pair in _pairs(aim) if (c := candidate(aim, pair)) is not None]
+    found = [c for pair in pairs(aim) if (c := candidate(aim, pair)) is not None]
     found.sort(key=lambda c: (-c.straight, c.waviness, c.pair.contact_radius))
     return tuple(found)
 
@@ -125,7 +125,13 @@ def rounded_up(radius: float) -> float:
     return round(math.ceil(round(radius * 10.0**digits, 6)) / 10.0**digits, digits)
 
 
-def _pairs(aim: Aim) -> Iterator[Pair]:
+def any_candidate(aim: Aim) -> bool:
+    """Whether closed forms allow any ring."""
+    return any(candidate(aim, pair) is not None for pair in pairs(aim))
+
+
+def pairs(aim: Aim) -> Iterator[Pair]:
+    """Rings over the whole range of what is open, not judged yet."""
     count, radius = aim.spec.flexures.count, aim.spec.envelope.contact_radius
     for n in _counts() if isinstance(count, str) else (count,):
         if not isinstance(radius, str):
@@ -177,8 +183,7 @@ def range_checks(aim: Aim) -> tuple[Check, ...]:
 
 def _remedy(aim: Aim) -> str:
     """What fails for the ring in the middle of the range."""
-    pairs = list(_pairs(aim))
-    inside = [p for p in pairs if p.contact_radius < _root_radius(aim)]
+    inside = [p for p in pairs(aim) if p.contact_radius < _root_radius(aim)]
     if not inside:
         return "lower envelope.contact_radius or raise envelope.root_radius"
     failed = failures(aim.at(inside[len(inside) // 2], aim.lowest).case)

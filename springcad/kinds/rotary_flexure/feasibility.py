@@ -30,6 +30,7 @@ above 0.75 to 0.83 depending on the bends allowed."""
 SLOT_ALLOWANCE = 2e-6
 """By so much the arcs near rest may make a slot narrower than its tip, m."""
 DENSITY_CLAIM = "density factor within experience"
+LAW_CLAIM = "stiffness of the law"
 
 ROUND_OFF = 12
 """Decimals of a metre to which differences of typed lengths are rounded before a comparison."""
@@ -42,15 +43,20 @@ would have to move beyond the flexures' noses."""
 
 def feasibility_checks(case: Case) -> tuple[Check, ...]:
     """All closed-form checks; those that fail carry remedies that make every one of them pass."""
-    return advised(_checks(case), lambda: case_remedies(case))
+    return advised(closed_forms(case), lambda: case_remedies(case))
 
 
 def require_feasible(case: Case) -> tuple[Check, ...]:
     """The checks of a feasible case; InfeasibleError with the first failing one otherwise."""
-    return require_all(_checks(case), lambda: case_remedies(case), lambda claim: claim.name)
+    return require_all(closed_forms(case), lambda: case_remedies(case), _words)
 
 
-def _checks(case: Case) -> tuple[Check, ...]:
+def _words(claim: Check) -> str:
+    """What is impossible; of a law, which is not a matter of more or less, also why."""
+    return f"{claim.name} ({claim.source})" if LAW_CLAIM in claim.name else claim.name
+
+
+def closed_forms(case: Case) -> tuple[Check, ...]:
     """Every claim, without remedies; in this order the first failing one is reported."""
     inputs = case.inputs
     if not 0.0 < inputs.contact_radius < inputs.root_radius:
@@ -77,13 +83,13 @@ def _stiffening(case: Case) -> tuple[Check, ...]:
     """A law may stiffen by as much as moving the contact along a pad of any length can give."""
     if case.law is None:
         return ()
-    inputs, name = case.inputs, "secant stiffness of the law at full load over that at rest"
+    inputs, name = case.inputs, f"secant {LAW_CLAIM} at full load over that at rest"
     source = "torque^2 / (2 energy) over the law's slope at rest"
     span = inputs.root_radius - inputs.contact_radius
     most = stiffening_by(FARTHEST * span, span, inputs.contact_radius, 1.0)
     if case.law.stiffness_at_rest <= 0.0:
         return (
-            check("stiffness of the law at rest", case.law.stiffness_at_rest, ">=",
+            check(f"{LAW_CLAIM} at rest", case.law.stiffness_at_rest, ">=",
                   inputs.stiffness / most, "N*m/rad",
                   source="a flexure has a stiffness of its own wherever it is touched"),
         )  # fmt: skip
@@ -93,7 +99,10 @@ def _stiffening(case: Case) -> tuple[Check, ...]:
             check(name, stiffening, "<=", most, "1",
                   source=f"{source}; contact moved by half of the flexures' length"),
         )  # fmt: skip
-    return (check(name, stiffening, ">=", SOFTENING, "1", source=source),)
+    return (
+        check(name, stiffening, ">=", SOFTENING, "1",
+              source="to soften, the contact would have to leave the tips"),
+    )  # fmt: skip
 
 
 def _material_and_process(case: Case, law: DesignLaw) -> tuple[Check, ...]:
@@ -241,7 +250,7 @@ def case_remedies(case: Case) -> tuple[str, ...]:
 
 def failures(case: Case) -> tuple[str, ...]:
     """Names of the checks that fail, without remedies: microseconds, for use in searches."""
-    return tuple(claim.name for claim in _checks(case) if claim.status == "fail")
+    return tuple(claim.name for claim in closed_forms(case) if claim.status == "fail")
 
 
 def _is_spec(case: Case) -> bool:
@@ -253,6 +262,6 @@ def _doubts(case: Case) -> tuple[str, ...]:
     """Claims that fail, and a density of which a search would hardly make anything."""
     return tuple(
         claim.name
-        for claim in _checks(case)
+        for claim in closed_forms(case)
         if claim.status == "fail" or (claim.status == "warn" and claim.name == DENSITY_CLAIM)
     )
