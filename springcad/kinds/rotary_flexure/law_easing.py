@@ -20,7 +20,7 @@ from springcad.kinds.given_law import rise_of
 from springcad.kinds.law_spec import Law
 from springcad.spec.lists import per_angle
 
-SHARES = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+SHARES = (0.1, 0.25, 0.4, 0.55, 0.7, 0.85)
 POINTS = 9
 """Points of a table that stands for a law of another form."""
 
@@ -51,5 +51,5 @@ def _polynomial(coefficients: Sequence[float]) -> str:
 
 
 def _table(degrees: Sequence[float], torques: Sequence[float]) -> str:
-    points = (f"[{a:.6g} deg, {t:.5g} N*m]" for a, t in zip(degrees, torques, strict=True))
+    points = (f"[{a:.12g} deg, {t:.5g} N*m]" for a, t in zip(degrees, torques, strict=True))
     return f"{{table: [{', '.join(points)}]}}"
