@@ -24,6 +24,8 @@ DESIGNS = 6
 """Springs designed at most:"""
 FURTHER = (0, 2, 4, 8)
 """of one way the mildest change that has a shape, and these further on."""
+ALIKE = 0.05
+"""Changes that differ by less in size are tried in the order in which they are given."""
 SHAPES = 30
 """Shapes searched for at most."""
 
@@ -55,7 +57,7 @@ def changes_that_work(
         first: key that is changed before the others.
     """
     possible = [way for changes in ways if (way := _possible(spec, changes, judges))]
-    possible.sort(key=lambda way: (way[0].change.key != first, way[0].change.size))
+    possible.sort(key=lambda way: (way[0].change.key != first, round(way[0].change.size / ALIKE)))
     search, found = _Search(judges, progress), dict[str, str]()
     for way in possible:
         if len(found) == MOST or search.designs == 0:
