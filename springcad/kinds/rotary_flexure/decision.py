@@ -65,7 +65,7 @@ def decide(spec: Spec, progress: Progress) -> tuple[Spring, Choice | None]:
         judges = OF_A_CHOICE if is_open(model) else OF_A_RING
         remedies = changes_that_work(spec, ways_of(model), judges, progress, first)
         if not remedies:
-            remedies = tuple(f"{words} (by closed forms alone)" for words in error.remedies)
+            remedies = tuple(f"{words}, by closed forms alone" for words in error.remedies)
         told = InfeasibleError(told.claim, told.value, told.limit, told.unit, remedies)
         raise of_sheet(told, stack_of(model)) from error
 
