@@ -29,6 +29,7 @@ class Loading:
         section: sides of the largest section in bending [m], where one is known.
         torque: of the whole element at these shares (K,) [N m]; None where it has no single one.
         local: name → stress of another place at the full deflection [Pa].
+        keys: name → key of the spec that bounds the stress of that other place.
         load_ratio: of the stress in a joint that turns as far both ways.
     """
 
@@ -38,6 +39,7 @@ class Loading:
     section: tuple[float, float] | None = None
     torque: Floats | None = None
     local: Mapping[str, float] = field(default_factory=dict)
+    keys: Mapping[str, str] = field(default_factory=dict)
     load_ratio: float = -1.0
 
     @property

@@ -20,6 +20,7 @@ from springcad.mechanics.fatigue import HIGH_CYCLES, size_factor
 from springcad.result import Check, Result, Value, check
 from springcad.spec.common import ProcessSpec
 from springcad.spec.material import MaterialSpec
+from springcad.spec.units import STRESS, show
 
 _EQUIVALENT = 0.808
 """Diameter of a round bar over sqrt(h b) of a rectangle in bending, equal highly stressed area
@@ -118,7 +119,7 @@ def _checks(case: Lasting) -> Iterator[Check]:
         yield check(
             f"{name} against what the life allows", stress, "<=", strength.stress, "Pa",
             source="local stress against the design stress from the life, no notch sensitivity",
-            otherwise="warn", remedy="test parts, or ask for more material.life.cycles",
+            otherwise="warn", remedy=_bounded(case, name),
         )  # fmt: skip
     if case.damage is not None:
         yield check(
@@ -130,6 +131,13 @@ def _checks(case: Lasting) -> Iterator[Check]:
             "Miner's sum of the histogram", case.damage.total, "<=", 1.0, "1",
             source=f"sum of n/N, {loading.name}; {strength.basis}", remedy=case.damage.remedy,
         )  # fmt: skip
+
+
+def _bounded(case: Lasting, name: str) -> str:
+    """What to do where the stress of another place is more than the life allows."""
+    key, stress = case.loading.keys.get(name), show(case.strength.stress, STRESS)
+    knob = f"{key} bounds it, to {stress} if there is room; or " if key else ""
+    return f"{knob}test parts, or ask for more material.life.cycles"
 
 
 def _size(section: tuple[float, float], strength: FatigueStrength) -> Check:

@@ -6,7 +6,8 @@ import hashlib
 import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from copy import deepcopy
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path as FilePath
 from typing import Any
@@ -36,6 +37,7 @@ class Spec:
         raw: what the user typed, with the overrides in place: text, numbers, booleans, sections.
         sha256: identity of what is asked for, see ``identity``.
         places: where each value stands.
+        folder: where the files that it names are.
     """
 
     path: str
@@ -45,6 +47,7 @@ class Spec:
     raw: dict[str, Any]
     sha256: str
     places: Mapping[Path, Place] = field(repr=False)
+    folder: FilePath = FilePath()
 
     def problem(self, key: Sequence[str], message: str) -> Problem:
         """A problem with the value at ``key``, or at the section where it is left out."""
@@ -77,7 +80,19 @@ def read_spec(path: FilePath, overrides: Sequence[str] = ()) -> Spec:
         raw=tree.data,
         sha256=identity(model),
         places=tree.values,
+        folder=path.parent,
     )
+
+
+def changed_spec(spec: Spec, overrides: Sequence[str]) -> Spec:
+    """The spec with ``overrides`` put in place as if they had been typed; SpecError if invalid."""
+    tree = Tree(deepcopy(spec.raw), dict(spec.places), dict(spec.places))
+    for override in overrides:
+        _put(tree, override)
+    model = _validated(tree, spec.folder)
+    if tree.problems or model is None:
+        raise spec_error(tree.problems)
+    return replace(spec, model=model, raw=tree.data, sha256=identity(model), places=tree.values)
 
 
 def restored_spec(raw: Mapping[str, Any], shown: str) -> Spec:

@@ -10,12 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.rotary_flexure.feasibility import (
-    KNOBS,
-    Case,
-    require_feasible,
-    straight_gap,
-)
+from springcad.kinds.rotary_flexure.case import Case
+from springcad.kinds.rotary_flexure.feasibility import KNOBS, require_feasible, straight_gap
 from springcad.kinds.rotary_flexure.law import LawInputs, design_law
 from springcad.kinds.rotary_flexure.room import annulus_area, deflection_bound, packing_bound
 

@@ -11,10 +11,11 @@ from rotary_cases import rotary_model
 from springcad.errors import InfeasibleError, SpecError
 from springcad.kinds.rotary_flexure.aim import Aim
 from springcad.kinds.rotary_flexure.candidates import candidates
+from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.choosing import choose
 from springcad.kinds.rotary_flexure.climbing import Climb
+from springcad.kinds.rotary_flexure.decision import decide
 from springcad.kinds.rotary_flexure.design import spring_of
-from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.result import Check, Progress
@@ -80,8 +81,10 @@ def test_a_deflection_out_of_reach_is_refused_with_one_that_was_designed() -> No
     """20 deg are beyond a full disk (16.8 deg); the remedy, typed in, gives a spring."""
     fixed = ("flexures.count=30", "envelope.contact_radius=4.49 mm", "envelope.outer_radius=auto")
     with pytest.raises(InfeasibleError) as told:
-        choose(plain(*fixed, "target.deflection=20 deg"), spring_of, lambda _: None)
-    (remedy,) = told.value.remedies
+        decide(read_spec(SPEC, (*PLAIN, *fixed, "target.deflection=20 deg")), lambda _: None)
+    assert told.value.claim.startswith("deflection against a full disk, of the ring that comes")
+    assert np.degrees(told.value.limit) == pytest.approx(16.8, abs=0.05)
+    remedy = next(words for words in told.value.remedies if "target.deflection" in words)
     degrees = remedy.split(" to ")[1].split(" deg")[0]
     choice = choose(plain(*fixed, f"target.deflection={degrees} deg"), spring_of, lambda _: None)
     assert choice.spring.found.style == "straight"

@@ -10,12 +10,8 @@ from pathlib import Path
 import pytest
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.rotary_flexure.feasibility import (
-    Case,
-    feasibility_checks,
-    require_feasible,
-    resolved_style,
-)
+from springcad.kinds.rotary_flexure.case import Case, resolved_style
+from springcad.kinds.rotary_flexure.feasibility import feasibility_checks, require_feasible
 from springcad.kinds.rotary_flexure.inputs import case_of
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.straight import straight_alternatives

@@ -47,7 +47,7 @@ def check_spec(spec: Spec) -> tuple[Check, ...]:
 
 def design_spec(spec: Spec, progress: Progress) -> Result:
     """Design ring and camshaft; InfeasibleError when no part can meet the spec."""
-    from springcad.kinds.rotary_flexure.design import design_spring
+    from springcad.kinds.rotary_flexure.decision import design_spring
 
     return design_spring(spec, progress)
 

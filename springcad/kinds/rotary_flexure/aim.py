@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from springcad.kinds.rotary_flexure.case import Case, resolved_style
 from springcad.kinds.rotary_flexure.checks import DEFORMED_GAP
-from springcad.kinds.rotary_flexure.feasibility import Case, resolved_style
 from springcad.kinds.rotary_flexure.inputs import case_of
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.rim import thinnest_rim

@@ -14,11 +14,8 @@ import numpy as np
 
 from springcad.kinds.rotary_flexure.aim import Aim, Pair, Trial
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs
-from springcad.kinds.rotary_flexure.feasibility import (
-    STRAIGHT_ROOM,
-    STRAIGHT_TOLERANCE,
-    failures,
-)
+from springcad.kinds.rotary_flexure.case import STRAIGHT_TOLERANCE
+from springcad.kinds.rotary_flexure.feasibility import STRAIGHT_ROOM, failures
 from springcad.kinds.rotary_flexure.inputs import number, target_of
 from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
 from springcad.kinds.rotary_flexure.room import hub_shear_stress
@@ -65,7 +62,7 @@ class Candidate:
 
 def candidates(aim: Aim) -> tuple[Candidate, ...]:
     """Rings over the whole range of what is open, those first that need waves least."""
-    found = [c for pair in _pairs(aim) if (c := candidate(aim, pair)) is not None]
+    found = [c for pair in pairs(aim) if (c := candidate(aim, pair)) is not None]
     return tuple(sorted(found, key=promise))
 
 
@@ -172,7 +169,13 @@ def rounded_up(radius: float) -> float:
     return round(math.ceil(round(radius * 10.0**digits, 6)) / 10.0**digits, digits)
 
 
-def _pairs(aim: Aim) -> Iterator[Pair]:
+def any_candidate(aim: Aim) -> bool:
+    """Whether closed forms allow any ring."""
+    return any(candidate(aim, pair) is not None for pair in pairs(aim))
+
+
+def pairs(aim: Aim) -> Iterator[Pair]:
+    """Rings over the whole range of what is open, not judged yet."""
     count, radius = aim.spec.flexures.count, aim.spec.envelope.contact_radius
     for n in _counts() if isinstance(count, str) else (count,):
         if not isinstance(radius, str):
@@ -224,8 +227,7 @@ def range_checks(aim: Aim) -> tuple[Check, ...]:
 
 def _remedy(aim: Aim) -> str:
     """What fails for the ring in the middle of the range."""
-    pairs = list(_pairs(aim))
-    inside = [p for p in pairs if p.contact_radius < _root_radius(aim)]
+    inside = [p for p in pairs(aim) if p.contact_radius < _root_radius(aim)]
     if not inside:
         return "lower envelope.contact_radius or raise envelope.root_radius"
     failed = forbidden(aim.at(inside[len(inside) // 2], aim.lowest))

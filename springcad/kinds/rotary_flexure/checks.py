@@ -16,7 +16,7 @@ from springcad.kinds.rotary_flexure.inputs import target_of
 from springcad.result import Check, check
 
 if TYPE_CHECKING:
-    from springcad.kinds.rotary_flexure.feasibility import Case
+    from springcad.kinds.rotary_flexure.case import Case
     from springcad.kinds.rotary_flexure.sizing import Sized
     from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
     from springcad.kinds.rotary_flexure.spring import Spring
@@ -35,6 +35,7 @@ DEFORMED_GAP = 5e-5
 """Gap between deformed flexures below which tolerances of cut and model may make them touch, m."""
 THIN_TOOTH = "camshaft tooth, thinnest"
 """A claim that the choice of a contact radius looks at."""
+INTERFERENCE = "interference of camshaft and tips in the stroke"
 CAM_INTERFERENCE = 5e-6
 """Depth to which the calculated tips may cut into the camshaft, m: below what a cut resolves."""
 
@@ -204,7 +205,7 @@ def _camshaft(spring: Spring) -> Iterator[Check]:
         remedy="raise envelope.thickness or flexures.count",
     )  # fmt: skip
     yield check(
-        "interference of camshaft and tips in the stroke", camshaft.overlap, "<=",
+        INTERFERENCE, camshaft.overlap, "<=",
         CAM_INTERFERENCE, "m", source="deformed tips against the teeth, at every angle solved",
         remedy=f"raise camshaft.backlash by {math.ceil(1e5 * camshaft.overlap) / 1e2:g} mm",
     )  # fmt: skip

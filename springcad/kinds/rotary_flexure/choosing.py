@@ -81,7 +81,7 @@ def choose(spec: RotaryFlexureSpec, build: Build, progress: Progress) -> Choice:
     progress("closed forms: which rings are possible")
     allowed = candidates(aim)
     if not allowed:
-        raise nothing_possible(aim, build, progress)
+        raise nothing_possible(aim)
     considered = _considered(aim, allowed, progress)
     search = Climb(aim, build, progress)
     for ring in _order(aim, considered):
@@ -91,7 +91,7 @@ def choose(spec: RotaryFlexureSpec, build: Build, progress: Progress) -> Choice:
     search.straight(allowed)
     best = search.best
     if best is None or best.spring is None:
-        raise nothing_made(aim, search.designs, build, progress)
+        raise nothing_made(search.designs)
     considered = (*considered, *search.widened)
     designs = tuple(search.designs)
     return Choice(aim, best.spring, best.pair, best.level, best.bound, allowed, considered, designs)

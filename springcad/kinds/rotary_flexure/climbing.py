@@ -17,8 +17,9 @@ from springcad.errors import InfeasibleError
 from springcad.kinds.rotary_flexure.aim import Aim, Pair
 from springcad.kinds.rotary_flexure.camshaft import NO_TOOTH
 from springcad.kinds.rotary_flexure.candidates import Candidate, candidate, rounded_up, worth
+from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.checks import DEFORMED_GAP, THIN_TOOTH, spring_checks
-from springcad.kinds.rotary_flexure.feasibility import Case, feasibility_checks
+from springcad.kinds.rotary_flexure.feasibility import feasibility_checks
 from springcad.kinds.rotary_flexure.rim import rim_check
 from springcad.kinds.rotary_flexure.screening import Screened, screened
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec

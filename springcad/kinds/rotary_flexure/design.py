@@ -6,96 +6,29 @@ from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Profile
 from springcad.geometry.outline_ops import profile_area, profile_faults
 from springcad.geometry.ribbon import Ribbon
-from springcad.kinds.rotary_flexure.aim import is_open
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
-from springcad.kinds.rotary_flexure.checks import full_load_gaps, spring_checks
-from springcad.kinds.rotary_flexure.choice_report import with_choice
-from springcad.kinds.rotary_flexure.choosing import Choice, choose
-from springcad.kinds.rotary_flexure.feasibility import (
-    Case,
-    failures,
-    require_feasible,
-    resolved_style,
-)
-from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
+from springcad.kinds.rotary_flexure.case import Case
+from springcad.kinds.rotary_flexure.checks import full_load_gaps
+from springcad.kinds.rotary_flexure.feasibility import require_feasible
+from springcad.kinds.rotary_flexure.inputs import case_of, target_of
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.response import stroke
 from springcad.kinds.rotary_flexure.ring import Dowels, ring_profile
 from springcad.kinds.rotary_flexure.sizing import Sized, size_flexure
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
-from springcad.kinds.rotary_flexure.stack import of_sheet, stack_of
-from springcad.kinds.rotary_flexure.straight_limit import STRAIGHT_LIMIT
-from springcad.kinds.rotary_flexure.summary import summarise
-from springcad.kinds.rotary_flexure.trials import (
-    BEND_LIMIT,
-    DEFLECTION,
-    THICKER_TIP,
-    THINNER_TIP,
-    changes_that_work,
-)
 from springcad.kinds.target_law import Law
-from springcad.result import Check, Progress, Result
-from springcad.spec.source import Spec
-
-
-def design_spring(spec: Spec, progress: Progress) -> Result:
-    """Design ring and camshaft and say what they do; what is left open is chosen first.
-
-    Raises:
-        InfeasibleError: no part can meet the spec.
-    """
-    spring, choice = decide(rotary_spec(spec.model), progress)
-    result = summarise(spec, spring)
-    return result if choice is None else with_choice(result, choice)
-
-
-def decide(spec: RotaryFlexureSpec, progress: Progress) -> tuple[Spring, Choice | None]:
-    """The spring, and how it was chosen where the spec leaves something open.
-
-    Raises:
-        InfeasibleError: no part can meet the spec.
-    """
-    try:
-        if not is_open(spec):
-            return build_spring(spec, progress), None
-        choice = choose(spec, spring_with_room, progress)
-        return choice.spring, choice
-    except InfeasibleError as error:
-        raise of_sheet(error, stack_of(spec)) from error
+from springcad.result import Check, Progress
 
 
 def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
-    """The spring itself, without words about it.
+    """The spring of a spec that leaves nothing open.
 
     Raises:
-        InfeasibleError: no part can meet the spec; with changes that were tried and that work.
+        InfeasibleError: no part can meet the spec.
     """
     case = case_of(spec).shifted
-    feasibility = require_feasible(case)
-    try:
-        return spring_of(spec, case, feasibility, progress)
-    except InfeasibleError as error:
-        if error.claim == STRAIGHT_LIMIT:  # It says already what helps.
-            raise
-        progress("no part can be made: trying what would help")
-        bends = resolved_style(design_law(case.inputs), case.style) == "serpentine"
-        knobs = (*([BEND_LIMIT] if bends else []), DEFLECTION, THICKER_TIP, THINNER_TIP)
-        raise error.with_remedies(*changes_that_work(spec, knobs, _is_possible, _passes)) from error
-
-
-def _is_possible(spec: RotaryFlexureSpec) -> bool:
-    """Whether every closed form holds."""
-    return not failures(case_of(spec).shifted)
-
-
-def _passes(spec: RotaryFlexureSpec) -> bool:
-    """Whether the spec can be designed and every check of the spring holds."""
-    try:
-        spring = spring_of(spec, case_of(spec).shifted, (), lambda _: None)
-    except InfeasibleError:
-        return False
-    return all(claim.status != "fail" for claim in spring_checks(spring))
+    return spring_of(spec, case, require_feasible(case), progress)
 
 
 def spring_of(

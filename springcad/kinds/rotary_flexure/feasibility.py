@@ -7,27 +7,22 @@ out to have none, because the shape of a serpentine flexure is only found by opt
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import Literal
+from dataclasses import replace
 
 from springcad.kinds.feasible import advised, require_all
 from springcad.kinds.knobs import Knob, remedies
-from springcad.kinds.rotary_flexure.law import DesignLaw, LawInputs, design_law
-from springcad.kinds.rotary_flexure.loaded_contact import FARTHEST, loaded_shift, stiffening_by
+from springcad.kinds.rotary_flexure.case import STRAIGHT_TOLERANCE, Case, resolved_style
+from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
+from springcad.kinds.rotary_flexure.loaded_contact import FARTHEST, stiffening_by
 from springcad.kinds.rotary_flexure.room import (
     deflection_bound,
     hub_shear_stress,
     neighbour_gap,
     packing_bound,
 )
-from springcad.kinds.rotary_flexure.stack import SINGLE, Stack, knobs_of_joint
+from springcad.kinds.rotary_flexure.stack import knobs_of_joint
 from springcad.result import Check, check
 
-Style = Literal["auto", "straight", "serpentine"]
-
-STRAIGHT_TOLERANCE = 0.0075
-"""A straight flexure counts as right within this share of f_s: half a per cent of stress, since
-stress goes as f_s^(2/3). Table I of 004 needs it: it prints 12.6 deg for 12.56 deg (f_s 1.005)."""
 STRAIGHT_ROOM = 0.15
 """Share of f_s by which a straight flexure may exceed the closed form before it is refused without
 a look at the exact beam, whose limit is 2.4 % higher for S1 of 004 (``straight_limit``)."""
@@ -38,6 +33,7 @@ above 0.75 to 0.83 depending on the bends allowed."""
 SLOT_ALLOWANCE = 2e-6
 """By so much the arcs near rest may make a slot narrower than its tip, m."""
 DENSITY_CLAIM = "density factor within experience"
+LAW_CLAIM = "stiffness of the law"
 
 ROUND_OFF = 12
 """Decimals of a metre to which differences of typed lengths are rounded before a comparison."""
@@ -48,94 +44,22 @@ SOFTENING = 0.9
 would have to move beyond the flexures' noses."""
 
 
-@dataclass(frozen=True)
-class LawDemand:
-    """What a torque law that is not linear asks of the ring.
-
-    Attributes:
-        torque: at full load, N m.
-        stiffness_at_rest: slope of the law at rest, N m/rad.
-    """
-
-    torque: float
-    stiffness_at_rest: float
-
-
-@dataclass(frozen=True)
-class Case:
-    """One sheet to be judged, SI: the law's inputs and what surrounds the flexures.
-
-    Attributes:
-        inputs: of the design law.
-        style: of the flexures; ``auto`` lets the serpentine factor decide.
-        outer_radius: of the ring.
-        yield_strength: of the material; the camshaft is taken to be of the same.
-        min_web: thinnest web that the process cuts.
-        min_gap: smallest gap wanted between neighbouring flexures, unloaded.
-        dowel_radius: of the semicircular cut-outs in the rim, 0 without dowels.
-        camshaft_bore_radius: 0 for a solid camshaft.
-        backlash: tangential play of a tip in its slot of the camshaft.
-        min_slot: narrowest slot with a round bottom that the process cuts.
-        least_gap: narrowest gap that the process cuts; ``min_gap`` may not be below it.
-        min_tooth: least width of a tooth of the camshaft between two tips at rest; at least
-            ``min_web``, which is all that the drawn tooth, thinner towards its tip, must keep.
-        law: what a torque law asks for that is not linear.
-        stack: the sheets of the joint, all alike; those on one camshaft twist it together.
-    """
-
-    inputs: LawInputs
-    style: Style
-    outer_radius: float
-    yield_strength: float
-    min_web: float
-    min_gap: float
-    dowel_radius: float = 0.0
-    camshaft_bore_radius: float = 0.0
-    backlash: float = 0.0
-    min_slot: float = 0.0
-    least_gap: float = 0.0
-    min_tooth: float = 0.0
-    law: LawDemand | None = None
-    stack: Stack = SINGLE
-
-    @property
-    def shifted(self) -> Case:
-        """The case with the contact where it is at full load."""
-        inputs = self.inputs
-        if self.law is None or self.law.stiffness_at_rest <= 0.0:
-            return self
-        shift = loaded_shift(
-            inputs.stiffness / self.law.stiffness_at_rest,
-            self.law.torque,
-            span=inputs.root_radius - inputs.contact_radius,
-            contact_radius=inputs.contact_radius,
-            count=inputs.count,
-            thickness=inputs.thickness,
-            design_stress=inputs.design_stress,
-            tip_half_thickness=inputs.tip_half_thickness,
-        )
-        return replace(self, inputs=replace(inputs, shift=shift))
-
-
-def resolved_style(law: DesignLaw, style: Style) -> Literal["straight", "serpentine"]:
-    """The style a design will have: ``auto`` becomes straight within STRAIGHT_TOLERANCE."""
-    if style == "auto":
-        excess = law.serpentine_factor / law.straight_factor - 1.0
-        return "straight" if excess <= STRAIGHT_TOLERANCE else "serpentine"
-    return style
-
-
 def feasibility_checks(case: Case) -> tuple[Check, ...]:
     """All closed-form checks; those that fail carry remedies that make every one of them pass."""
-    return advised(_checks(case), lambda: case_remedies(case))
+    return advised(closed_forms(case), lambda: case_remedies(case))
 
 
 def require_feasible(case: Case) -> tuple[Check, ...]:
     """The checks of a feasible case; InfeasibleError with the first failing one otherwise."""
-    return require_all(_checks(case), lambda: case_remedies(case), lambda claim: claim.name)
+    return require_all(closed_forms(case), lambda: case_remedies(case), _words)
 
 
-def _checks(case: Case, straight_room: float = STRAIGHT_ROOM) -> tuple[Check, ...]:
+def _words(claim: Check) -> str:
+    """What is impossible; of a law, which is not a matter of more or less, also why."""
+    return f"{claim.name} ({claim.source})" if LAW_CLAIM in claim.name else claim.name
+
+
+def closed_forms(case: Case, straight_room: float = STRAIGHT_ROOM) -> tuple[Check, ...]:
     """Every claim, without remedies; in this order the first failing one is reported."""
     inputs = case.inputs
     if not 0.0 < inputs.contact_radius < inputs.root_radius:
@@ -162,13 +86,13 @@ def _stiffening(case: Case) -> tuple[Check, ...]:
     """A law may stiffen by as much as moving the contact along a pad of any length can give."""
     if case.law is None:
         return ()
-    inputs, name = case.inputs, "secant stiffness of the law at full load over that at rest"
+    inputs, name = case.inputs, f"secant {LAW_CLAIM} at full load over that at rest"
     source = "torque^2 / (2 energy) over the law's slope at rest"
     span = inputs.root_radius - inputs.contact_radius
     most = stiffening_by(FARTHEST * span, span, inputs.contact_radius, 1.0)
     if case.law.stiffness_at_rest <= 0.0:
         return (
-            check("stiffness of the law at rest", case.law.stiffness_at_rest, ">=",
+            check(f"{LAW_CLAIM} at rest", case.law.stiffness_at_rest, ">=",
                   inputs.stiffness / most, "N*m/rad",
                   source="a flexure has a stiffness of its own wherever it is touched"),
         )  # fmt: skip
@@ -178,7 +102,10 @@ def _stiffening(case: Case) -> tuple[Check, ...]:
             check(name, stiffening, "<=", most, "1",
                   source=f"{source}; contact moved by half of the flexures' length"),
         )  # fmt: skip
-    return (check(name, stiffening, ">=", SOFTENING, "1", source=source),)
+    return (
+        check(name, stiffening, ">=", SOFTENING, "1",
+              source="to soften, the contact would have to leave the tips"),
+    )  # fmt: skip
 
 
 def _material_and_process(case: Case, law: DesignLaw) -> tuple[Check, ...]:
@@ -202,19 +129,19 @@ def _serpentine_factor(case: Case, law: DesignLaw, straight_room: float) -> tupl
     """Straight flexures may be too strong but not too weak; waves cannot be shorter than straight.
 
     By the law of small deflections a straight flexure has (f_s / straight)^(2/3) times the design
-    stress; what it has is known once it is sized.
+    stress, and what it has is known once it is sized; a softer one is made thicker and bears less.
+    ``auto`` takes the style that will do.
     """
     straight = law.straight_factor
     source = f"004, section II-B, with the tip thickness; a straight flexure has {straight:.4f}"
-    lower = straight * (1.0 - STRAIGHT_TOLERANCE) if case.style == "auto" else straight
-    if case.style == "straight":
+    if resolved_style(law, case.style) == "straight":
         return (
             check("serpentine factor of a straight flexure", law.serpentine_factor, "<=",
                   straight * (1.0 + straight_room), "1", source=source),
         )  # fmt: skip
     return (
         check("serpentine factor (below it a straight flexure is already too soft)",
-              law.serpentine_factor, ">=", lower, "1", source=source),
+              law.serpentine_factor, ">=", straight, "1", source=source),
     )  # fmt: skip
 
 
@@ -327,7 +254,9 @@ def case_remedies(case: Case) -> tuple[str, ...]:
 
 def failures(case: Case, straight_room: float = STRAIGHT_ROOM) -> tuple[str, ...]:
     """Names of the checks that fail, without remedies: microseconds, for use in searches."""
-    return tuple(claim.name for claim in _checks(case, straight_room) if claim.status == "fail")
+    return tuple(
+        claim.name for claim in closed_forms(case, straight_room) if claim.status == "fail"
+    )
 
 
 def _is_spec(case: Case) -> bool:
@@ -339,6 +268,6 @@ def _doubts(case: Case) -> tuple[str, ...]:
     """Claims that fail, and a density of which a search would hardly make anything."""
     return tuple(
         claim.name
-        for claim in _checks(case, STRAIGHT_TOLERANCE)
+        for claim in closed_forms(case, STRAIGHT_TOLERANCE)
         if claim.status == "fail" or (claim.status == "warn" and claim.name == DENSITY_CLAIM)
     )

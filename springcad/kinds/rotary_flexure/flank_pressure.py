@@ -33,7 +33,7 @@ def flank_strips(
         InfeasibleError: no strip was found.
     """
     profile = drawn_flank(camshaft.drawn, direction)
-    heading = np.unwrap(np.arctan2(*profile.slope(profile.places).T[::-1]))
+    heading = np.unwrap(np.arctan2(*profile.curve(profile.places, 1).T[::-1]))
     bend = np.diff(heading) / np.diff(profile.places)
     nose = 1.0 / float(beam.beam.half_thickness(np.array([inputs.nose_station]))[0])
     pad = np.interp(seat.place, profile.places, heading)[:, None]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from springcad.kinds.rotary_flexure.calibrated import calibrated
-from springcad.kinds.rotary_flexure.feasibility import Case, LawDemand
+from springcad.kinds.rotary_flexure.case import Case, LawDemand
 from springcad.kinds.rotary_flexure.law import LawInputs
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.stack import law_of_sheet, stack_of

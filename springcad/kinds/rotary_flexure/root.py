@@ -10,7 +10,7 @@ import numpy as np
 
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.calibrated import root_coefficient
-from springcad.kinds.rotary_flexure.feasibility import Case
+from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.flexure_contact import flexure_beam
 from springcad.kinds.rotary_flexure.ring import FILLET_STEP, largest_fillet
 from springcad.kinds.rotary_flexure.root_compliance import (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
+from springcad.kinds.rotary_flexure.case import Case, resolved_style
 from springcad.kinds.rotary_flexure.clearance import flexure_gap
 from springcad.kinds.rotary_flexure.control_points import (
     ControlPointOutcome,
@@ -13,10 +13,10 @@ from springcad.kinds.rotary_flexure.control_points import (
     reoptimise_control_points,
 )
 from springcad.kinds.rotary_flexure.curvature_form import CurvatureOptimum, optimise, reoptimise
-from springcad.kinds.rotary_flexure.feasibility import Case, resolved_style
 from springcad.kinds.rotary_flexure.law import DesignLaw
 from springcad.kinds.rotary_flexure.problem import FlexureProblem, thickened
 from springcad.kinds.rotary_flexure.shape import curvature_ribbon, straight_ribbon
+from springcad.kinds.rotary_flexure.shape_refusal import NoShapeError
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.result import Progress
 
@@ -120,11 +120,12 @@ def problem_of(spec: RotaryFlexureSpec, law: DesignLaw) -> FlexureProblem:
 def _serpentine(
     spec: RotaryFlexureSpec, problem: FlexureProblem, line: Line | None, *, corrected: bool = False
 ) -> Found:
-    if line is None or (isinstance(line, ControlPointOutcome) and not line.feasible):
+    points = line if isinstance(line, ControlPointOutcome) else None
+    if line is None or (points is not None and not points.feasible):
         claim = f"searches, of {spec.optimiser.starts}, that found a flexure within all limits"
         if corrected:
             claim += " once it was corrected for full load"
-        raise InfeasibleError(claim, 0.0, 1.0, "1")
+        raise NoShapeError(claim, problem, points)
     return _found(problem, line)
 
 

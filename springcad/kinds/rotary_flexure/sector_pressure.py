@@ -33,7 +33,7 @@ def contact_pressure(sector: SectorContact, turn: Turn) -> float:
     assert contact is not None
     force = float(np.hypot(*contact.force))
     difference = _difference(sector, *_tip(sector, turn))
-    heights = difference.slope(difference.places)[:, 1]
+    heights = difference.curve(difference.places, 1)[:, 1]
     # The body is below and runs to the left: on its top the slope turns from upwards to downwards.
     tops = np.flatnonzero((heights[:-1] > 0.0) & (heights[1:] <= 0.0))
     if force == 0.0 or not len(tops):
@@ -84,7 +84,7 @@ def _difference(sector: SectorContact, end: Floats, inwards: Floats) -> RigidPro
     # Where the nose begins the curvature jumps: a point of the profile has to be there.
     beginning = np.interp(0.0, (flank.points - end) @ tangent, flank.places)
     places = np.union1d(flank.places, beginning)
-    points, slopes = (flank.curve(places) - end) @ axes, flank.slope(places) @ axes
+    points, slopes = (flank.curve(places) - end) @ axes, flank.curve(places, 1) @ axes
     past = np.clip(sector.direction * points[:, 0], 0.0, 0.5 * radius)
     fallen = radius - np.sqrt(radius**2 - past**2)
     tilt = sector.direction * past / np.sqrt(radius**2 - past**2)

@@ -8,8 +8,9 @@ from springcad.errors import InfeasibleError
 from springcad.kinds.law_sheet import law_steps
 from springcad.kinds.rotary_flexure.aim import Aim, is_open
 from springcad.kinds.rotary_flexure.candidates import range_checks
-from springcad.kinds.rotary_flexure.design import decide
-from springcad.kinds.rotary_flexure.feasibility import Case, feasibility_checks
+from springcad.kinds.rotary_flexure.case import Case
+from springcad.kinds.rotary_flexure.decision import decide
+from springcad.kinds.rotary_flexure.feasibility import feasibility_checks
 from springcad.kinds.rotary_flexure.inputs import case_of, joint_target_of, number, rotary_spec
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.sheet_law import law_section, room_section
@@ -31,7 +32,7 @@ def explain_spring(spec: Spec, progress: Progress) -> Sheet:
     """The sheet of the design; of a refused one as far as closed forms go, with the refusal."""
     model = rotary_spec(spec.model)
     try:
-        spring, _ = decide(model, progress)
+        spring, _ = decide(spec, progress)
     except InfeasibleError as refusal:
         if is_open(model):
             material = material_section(model.material)

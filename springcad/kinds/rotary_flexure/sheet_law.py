@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from springcad.kinds.rotary_flexure.feasibility import Case, resolved_style
+from springcad.kinds.rotary_flexure.case import Case, resolved_style
 from springcad.kinds.rotary_flexure.law import (
     DesignLaw,
     energy_of_area,

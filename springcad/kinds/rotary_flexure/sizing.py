@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
+from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.correction import (
     Loading,
     corrected,
@@ -25,7 +26,6 @@ from springcad.kinds.rotary_flexure.correction import (
     stations_of,
     straight_level,
 )
-from springcad.kinds.rotary_flexure.feasibility import Case
 from springcad.kinds.rotary_flexure.full_load import demand_of, loads_of, stiffness_at_rest
 from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
 from springcad.kinds.rotary_flexure.problem import FlexureProblem

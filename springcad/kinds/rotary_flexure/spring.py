@@ -7,7 +7,7 @@ from functools import cached_property
 
 from springcad.geometry.outline import Profile
 from springcad.kinds.rotary_flexure.camshaft import Camshaft, CamshaftInputs
-from springcad.kinds.rotary_flexure.feasibility import Case
+from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.full_load import DIRECTIONS
 from springcad.kinds.rotary_flexure.law import DesignLaw
 from springcad.kinds.rotary_flexure.overrange import EndOfUse, end_of_use

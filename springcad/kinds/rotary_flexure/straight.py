@@ -13,7 +13,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.kinds.rotary_flexure.feasibility import Case
+from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.law import (
     required_area,
     straight_area,

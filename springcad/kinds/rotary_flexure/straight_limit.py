@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.rotary_flexure.feasibility import Case, case_remedies
+from springcad.kinds.rotary_flexure.case import Case
 
 STRAIGHT_LIMIT = "deflection, against that at which straight flexures reach the design stress"
 STRAIGHT_STRESS = "stress of straight flexures at full load, against the design stress"
@@ -47,5 +47,4 @@ def straight_refusal(case: Case, limit: float) -> InfeasibleError:
     joint = math.degrees(case.stack.series)
     reached = math.floor(limit * joint * 10**_DIGITS) / 10**_DIGITS
     lower = f"lower target.deflection from {case.inputs.deflection * joint:.4g} to {reached:g} deg"
-    others = (r for r in case_remedies(case) if "target.deflection" not in r)
-    return InfeasibleError(STRAIGHT_LIMIT, case.inputs.deflection, limit, "rad", (lower, *others))
+    return InfeasibleError(STRAIGHT_LIMIT, case.inputs.deflection, limit, "rad", (lower,))

@@ -67,6 +67,7 @@ def _loading(spring: Spring) -> Loading:
             "inner-fibre stress": peak(spring, "local_stress"),
             "root fillet stress": root_fillet_stress(spring),
         },
+        keys={"root fillet stress": "flexures.fillet_stress"},
     )
 
 
