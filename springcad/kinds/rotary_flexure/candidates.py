@@ -133,7 +133,8 @@ def core_shear(trial: Trial) -> float:
     the spec leave out the room below the tips, the backlash and the overrange.
     """
     inputs, case = trial.case.inputs, trial.case
-    slot = inputs.tip_half_thickness + 0.5 * case.backlash + CamshaftInputs.bottom_clearance
+    nose = inputs.tip_half_thickness
+    slot = nose + 0.5 * case.backlash + CamshaftInputs.bottom_clearance * nose
     core = inputs.contact_radius - slot
     if core <= case.camshaft_bore_radius:
         return math.inf
