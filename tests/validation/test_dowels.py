@@ -211,7 +211,7 @@ def test_between_its_dowels_a_rim_bends_as_one_with_a_free_edge(name: str, beari
     assert found.stiffness == pytest.approx(found.mean, rel=8e-3)
 
 
-@pytest.mark.parametrize(("name", "softer"), {"S1": 1.9, "S2": 1.8, "S3": 1.1, "S4": 0.4}.items())
+@pytest.mark.parametrize(("name", "softer"), {"S1": 1.9, "S2": 2.0, "S3": 1.1, "S4": 0.4}.items())
 def test_a_bore_that_the_rim_can_neither_enter_nor_leave_would_stiffen_it_by_up_to_two_per_cent(
     name: str, softer: float
 ) -> None:

@@ -95,7 +95,7 @@ def tooth_space(
     """Build the slot from the flanks of directions +1 and −1.
 
     Args:
-        flanks: their largest angle gives the height of the teeth.
+        flanks: ``require_round``; their largest angle gives the height of the teeth.
         rest: the unloaded tip.
         smallest_radius: of curvature of a flank (m).
         backlash: play of the unloaded tip, both sides together, at the contact radius (m).
@@ -105,8 +105,7 @@ def tooth_space(
             straight end the pad would lie flat.
 
     Raises:
-        InfeasibleError: a flank is hollow or sharper than ``smallest_radius`` beyond half of its
-            stroke, or bends back below the tip circle.
+        InfeasibleError: a flank bends back below the tip circle.
     """
     turn = 0.5 * backlash / float(np.hypot(*rest.nose_center))
     sides = [_side(flank, rest, smallest_radius, -flank.direction * turn) for flank in flanks]
@@ -134,6 +133,16 @@ def tooth_space(
     )
 
 
+def require_round(flank: Flank, smallest_radius: float) -> None:
+    """Refuse a flank that no arc near rest can stand in for.
+
+    Raises:
+        InfeasibleError: it is hollow or sharper than ``smallest_radius`` beyond half of its stroke.
+    """
+    middle = float(flank.angle[len(flank.angle) // 2])
+    require_no_undercut(between(flank, middle, float(flank.angle[-1])), smallest_radius)
+
+
 def flank_points(slot: Slot, direction: int) -> Floats:
     """Dense points (M, 2) of one side from its top, as solved; its arc goes on by half.
 
@@ -151,8 +160,6 @@ def flank_points(slot: Slot, direction: int) -> Floats:
 
 def _side(flank: Flank, rest: Rest, smallest_radius: float, turn: float) -> _Side:
     """The exact flank down to the smallest radius, then an arc until parallel to the tip."""
-    middle = float(flank.angle[len(flank.angle) // 2])
-    require_no_undercut(between(flank, middle, float(flank.angle[-1])), smallest_radius)
     sharp = np.flatnonzero(flank.radius < smallest_radius)
     first = int(sharp[-1]) + 1 if len(sharp) else 0
     curve = Curve(flank.points[first:][::-1], flank.tangents[first:][::-1])

@@ -18,7 +18,7 @@ from springcad.geometry.outline import Arc, Circle, Outline, Piece, Profile
 from springcad.geometry.polyline import BulgePolyline
 from springcad.geometry.transform import rotate
 from springcad.kinds.rotary_flexure.cam_clearance import overlap, thinnest_tooth
-from springcad.kinds.rotary_flexure.cam_slot import Rest, Slot, tooth_space
+from springcad.kinds.rotary_flexure.cam_slot import Rest, Slot, require_round, tooth_space
 from springcad.kinds.rotary_flexure.cam_tooth import tooth_root_stress
 from springcad.kinds.rotary_flexure.drawn_flank import drawn_flank
 from springcad.kinds.rotary_flexure.flexure_contact import (
@@ -87,7 +87,7 @@ class CamshaftInputs:
     backlash: float = 0.0
     bottom_clearance: float = 4.0 / 7.0
     overrange: float = 0.04
-    smallest_radius: float = 6.0 / 7.0
+    smallest_radius: float = 0.75
 
 
 @dataclass(frozen=True)
@@ -169,14 +169,17 @@ def design_camshaft(beam: PreparedBeam, inputs: CamshaftInputs) -> Camshaft:
             is left between two tips.
     """
     flanks = (flank(beam, inputs, 1), flank(beam, inputs, -1))
+    rest = _rest(beam, inputs)
+    smallest_radius = inputs.smallest_radius * rest.half_thickness
+    for side in flanks:
+        require_round(side, smallest_radius)
     modulus = contact_modulus(*(beam.beam.elastic_modulus, inputs.poisson_ratio) * 2)
     ends = [at_rows(side, np.array([-1])) for side in flanks]
     strip = max(float(hertz_half_width(end, beam.beam.thickness, modulus)[0]) for end in ends)
-    rest = _rest(beam, inputs)
     slot = tooth_space(
         flanks,
         rest,
-        smallest_radius=inputs.smallest_radius * rest.half_thickness,
+        smallest_radius=smallest_radius,
         backlash=inputs.backlash,
         bottom_clearance=inputs.bottom_clearance * rest.half_thickness,
         land=STRIPS * strip,
