@@ -15,6 +15,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -53,13 +55,18 @@ def biarc_joints(
     Points and unit tangents x + i y, of any one shape. Where the ends ask for two half circles
     (equal tangents across the chord) there is no such biarc and the result is not finite.
     """
-    v, total, apart = end - start, start_tangent + end_tangent, start_tangent - end_tangent
-    along, squared = (v.conj() * total).real, (v.conj() * v).real
-    # 1 - t0·t1 = |t0 - t1|²/2, without cancellation; this form of the root is exact at t0 = t1.
-    spread = (apart.conj() * apart).real
     with np.errstate(divide="ignore", invalid="ignore"):
-        d = squared / (along + np.sqrt(along**2 + spread * squared))
-        return 0.5 * (start + end + d * apart), (v - d * total) / (2.0 * d)
+        return _joint(start, start_tangent, end, end_tangent)
+
+
+def _joint(start, start_tangent, end, end_tangent):
+    """The same of arrays or of single numbers, by their own rules of division by zero."""
+    v, total, apart = end - start, start_tangent + end_tangent, start_tangent - end_tangent
+    along, squared = (v.conjugate() * total).real, (v.conjugate() * v).real
+    # 1 - t0·t1 = |t0 - t1|²/2, without cancellation; this form of the root is exact at t0 = t1.
+    spread = (apart.conjugate() * apart).real
+    d = squared / (along + (along**2 + spread * squared) ** 0.5)
+    return 0.5 * (start + end + d * apart), (v - d * total) / (2.0 * d)
 
 
 def arc_bulges(start: Floats, tangent: Floats, end: Floats) -> Floats:
@@ -238,8 +245,8 @@ def _knots(curve: Curve, tolerance: float) -> tuple[Floats, Floats]:
 
     front, back = [0], [len(points) - 1]
     while not fits(front[-1], back[-1]):
-        ahead = _reach(fits, front[-1], back[-1])
-        behind = _reach(fits, back[-1], front[-1])
+        ahead = _reach(fits, front, back[-1])
+        behind = _reach(fits, back, front[-1])
         middle = (ahead + behind) // 2
         if ahead < behind:
             front.append(ahead)
@@ -254,14 +261,17 @@ def _knots(curve: Curve, tolerance: float) -> tuple[Floats, Floats]:
     return _as_pairs(points[knots]), _as_pairs(headings[knots])
 
 
-def _reach(fits: Callable[[int, int], bool], origin: int, limit: int) -> int:
-    """The farthest sample from ``origin`` towards ``limit`` that one biarc attains.
+def _reach(fits: Callable[[int, int], bool], knots: list[int], limit: int) -> int:
+    """The farthest sample from the last knot towards ``limit`` that one biarc attains.
 
-    Samples have the even indices; the span is doubled as long as it fits, then bisected.
+    Samples have the even indices; the span is doubled as long as it fits, then bisected. It begins
+    well below that of the biarc before.
     """
-    step = 2 if limit > origin else -2
+    origin, step = knots[-1], 2 if limit > knots[-1] else -2
     most = (limit - origin) // step
-    good, bad = 0, 1
+    before = (origin - knots[-2]) // step if len(knots) > 1 else 0
+    likely = 1 << max(before.bit_length() - 1, 0)
+    good, bad = 0, likely if likely <= most and fits(origin, origin + step * likely) else 1
     while bad <= most and fits(origin, origin + step * bad):
         good, bad = bad, min(2 * bad, most) if bad < most else most + 1
     if good == 0:
@@ -278,13 +288,18 @@ def _deviation(points: ComplexPoints, headings: ComplexPoints) -> float:
     The stretch must nowhere turn by 90° or more from the direction at the joint: it and the biarc
     are then two graphs over the same axis and this distance is the distance both ways.
     """
-    start, end = points[0], points[-1]
-    joint, direction = biarc_joints(start, headings[0], end, headings[-1])
-    if not np.isfinite(joint) or (headings * direction.conj()).real.min() <= 0.0:
-        return np.inf
-    local = (points - joint) * direction.conj()
+    start, end = complex(points[0]), complex(points[-1])
+    tangent = complex(headings[0])
+    try:
+        joint, direction = _joint(start, tangent, end, complex(headings[-1]))
+    except ZeroDivisionError:
+        return math.inf
+    turned = direction.conjugate()
+    if (headings * turned).real.min() <= 0.0:
+        return math.inf
+    local = (points - joint) * turned
     along, across = local.real, local.imag
-    before, after = _curvature(start, headings[0], joint), _curvature(joint, direction, end)
+    before, after = _curvature(start, tangent, joint), _curvature(joint, direction, end)
     curvature = np.where(along < 0.0, before, after)
     # Distance from the circle through the joint, in a form that is exact for a straight line.
     bent = curvature * (along**2 + across**2) - 2.0 * across
@@ -292,6 +307,6 @@ def _deviation(points: ComplexPoints, headings: ComplexPoints) -> float:
     return float((np.abs(bent) / (1.0 + root)).max())
 
 
-def _curvature(start: ComplexPoints, tangent: ComplexPoints, end: ComplexPoints) -> Floats:
+def _curvature(start: complex, tangent: complex, end: complex) -> float:
     chord = end - start
-    return 2.0 * (tangent.conj() * chord).imag / (chord.conj() * chord).real
+    return 2.0 * (tangent.conjugate() * chord).imag / abs(chord) ** 2

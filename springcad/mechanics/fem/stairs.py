@@ -93,10 +93,8 @@ def _heights(rows: Indices, columns: Indices, count: int) -> Indices:
 
 def places(stairs: Sequence[Stair], rows: Indices, columns: Indices) -> Indices:
     """Where entries of the lower triangle are stored."""
-    ends = np.array([stair.end for stair in stairs])
-    at = np.searchsorted(ends, columns, side="right")
-    start, width, offset = np.array([(s.start, s.width, s.offset) for s in stairs]).T[:, at]
-    return np.asarray(offset + (columns - start) * (width + 1) + rows - columns)
+    base = [s.offset - s.start + (np.arange(s.start, s.end) - s.start) * s.width for s in stairs]
+    return np.asarray(np.concatenate(base)[columns] + rows)
 
 
 def storage(stairs: Sequence[Stair]) -> int:
