@@ -93,11 +93,15 @@ def scatter(pattern: Pattern, rows: Indices, columns: Indices, source: Indices) 
     return Scatter(source[lower], factor[lower], place)
 
 
-def scatter_untouched(pattern: Pattern, rows: Indices, columns: Indices, source: Indices) -> Scatter:
-    """The same for components that no equation names; of two entries mirrored only one is given."""
-    row, column = pattern.untouched[rows], pattern.untouched[columns]
-    place = places(pattern.stairs, np.maximum(row, column), np.minimum(row, column))
-    return Scatter(source, np.ones(len(source)), place)
+def scatter_untouched(pattern: Pattern, components: Indices, source: Indices) -> Scatter:
+    """The same for symmetric matrices of K x n components (K, n) that no equation names.
+
+    ``source`` (K, n (n + 1) / 2) is of their lower triangles, row by row.
+    """
+    unknowns = pattern.untouched[components]
+    rows, columns = (unknowns[:, some] for some in np.tril_indices(components.shape[1]))
+    place = places(pattern.stairs, np.maximum(rows, columns), np.minimum(rows, columns))
+    return Scatter(source.ravel(), np.ones(source.size), place.ravel())
 
 
 def together(first: Scatter, second: Scatter) -> Scatter:

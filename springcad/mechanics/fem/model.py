@@ -98,14 +98,15 @@ def _element_scatter(pattern: Pattern, elements: Indices) -> Scatter:
     components = components_of(elements)
     plain = np.all(pattern.untouched[components] >= 0, axis=1)
 
-    def entries(some: Indices, row: Indices, column: Indices) -> tuple[Indices, ...]:
-        sources = 192 * some[:, None] + _BLOCK_ENTRY[row, column]
-        own = components[some]
-        return own[:, row].ravel(), own[:, column].ravel(), sources.ravel()
-
-    once = entries(np.flatnonzero(plain), *np.tril_indices(16))
-    twice = entries(np.flatnonzero(~plain), *np.indices((16, 16)).reshape(2, -1))
-    return together(scatter_untouched(pattern, *once), scatter(pattern, *twice))
+    short, long = np.flatnonzero(plain), np.flatnonzero(~plain)
+    simple = scatter_untouched(
+        pattern, components[short], 192 * short[:, None] + _BLOCK_ENTRY[np.tril_indices(16)]
+    )
+    row, column = np.indices((16, 16)).reshape(2, -1)
+    rows, columns = components[long][:, row], components[long][:, column]
+    source = 192 * long[:, None] + _BLOCK_ENTRY[row, column]
+    tied = scatter(pattern, rows.ravel(), columns.ravel(), source.ravel())
+    return together(simple, tied)
 
 
 def _block_entries() -> Indices:
