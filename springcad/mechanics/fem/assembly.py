@@ -76,9 +76,11 @@ def prepare_solid(mesh: Mesh, sheet: Sheet) -> Solid:
     points, rule = gauss_points()
     derivatives = shape_functions(points)[1]
     nodal = mesh.nodes[mesh.elements]
-    (ax, bx), (ay, by) = (derivatives.reshape(-1, 8) @ nodal).reshape(
-        len(nodal), len(rule), 2, 2
-    ).transpose(3, 2, 0, 1)
+    (ax, bx), (ay, by) = (
+        (derivatives.reshape(-1, 8) @ nodal)
+        .reshape(len(nodal), len(rule), 2, 2)
+        .transpose(3, 2, 0, 1)
+    )
     determinant = ax * by - ay * bx
     if np.any(determinant <= 0.0):
         bad = np.flatnonzero(np.any(determinant <= 0.0, axis=1))

@@ -205,7 +205,9 @@ def _merged(points: Floats, border: Indices, elements: Indices) -> tuple[Floats,
     """
     corners = points[elements[:, :4]]
     edges = np.hypot(*np.moveaxis(corners - np.roll(corners, 1, axis=1), -1, 0))
-    near = cKDTree(points[border]).query_pairs(COINCIDENT * float(edges.min()), output_type="ndarray")
+    near = cKDTree(points[border]).query_pairs(
+        COINCIDENT * float(edges.min()), output_type="ndarray"
+    )
     links = coo_array((np.ones(len(near)), border[near].T), shape=(len(points), len(points)))
     _, group = connected_components(links, directed=False)
     used = np.unique(elements)
