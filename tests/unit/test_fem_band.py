@@ -1,4 +1,4 @@
-"""The band of a part with ties and supports solves what the dense matrix of free unknowns solves."""
+"""The band of a part with ties and supports solves what the dense matrix solves."""
 
 from __future__ import annotations
 

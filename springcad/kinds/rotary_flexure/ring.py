@@ -151,7 +151,7 @@ def flexure_pieces(
 def flexure_side(
     ribbon: Ribbon, root_radius: float, fillet: float, blend: float, side: int
 ) -> tuple[Fillet, tuple[Line | Arc, ...]]:
-    """Root fillet left (+1) or right (-1) as of ``root_fillet``, and from it the edge as it is cut."""
+    """The root fillet of a side, and the edge as it is cut from there to the nose."""
     found = root_fillet(ribbon, root_radius, fillet, side)
     return found, _edge(ribbon, found.station, blend, side)
 
