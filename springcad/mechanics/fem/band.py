@@ -12,11 +12,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
+from scipy.linalg import LinAlgError
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from springcad.mechanics.fem.constraints import Constraints
-from springcad.mechanics.fem.stairs import Stair, find_stairs, places, storage
-from springcad.mechanics.fem.stairs import solve as solve_stairs
+from springcad.mechanics.fem.stairs import (
+    Stair,
+    find_stairs,
+    places,
+    solve_definite,
+    solve_indefinite,
+    storage,
+)
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -29,6 +36,10 @@ class Scatter:
     source: Indices
     factor: Floats
     place: Indices
+
+
+Part = tuple[Scatter, Floats]
+"""Element matrices (any shape) of a sum, and where they go."""
 
 
 @dataclass(frozen=True)
@@ -128,15 +139,15 @@ def _expand(
     return entry, transform.indices[position], transform.data[position]
 
 
-def gather(pattern: Pattern, parts: list[tuple[Scatter, Floats]]) -> Floats:
-    """Add element matrices (any shape, in the order the scatter was made for) up into the band."""
+def _gathered(pattern: Pattern, parts: list[Part]) -> Floats:
+    """The parts added up in the band."""
     band = np.zeros(storage(pattern.stairs))
     for where, values in parts:
         np.add.at(band, where.place, values.ravel()[where.source] * where.factor)
     return band
 
 
-def solve(pattern: Pattern, band: Floats, right: Floats) -> Floats:
+def solve(pattern: Pattern, parts: list[Part], right: Floats) -> Floats:
     """Solve K q = right (m, c) for the free unknowns (m, c), in their original order.
 
     Cholesky, or LU with pivoting when the matrix is not positive definite (beyond a limit point).
@@ -146,18 +157,22 @@ def solve(pattern: Pattern, band: Floats, right: Floats) -> Floats:
     """
     ordered = np.empty_like(right)
     ordered[pattern.place] = right
-    return solve_stairs(pattern.stairs, band, ordered)[pattern.place]
+    try:
+        solution = solve_definite(pattern.stairs, _gathered(pattern, parts), ordered)
+    except LinAlgError:
+        solution = solve_indefinite(pattern.stairs, _gathered(pattern, parts), ordered)
+    return solution[pattern.place]
 
 
 def solve_corrected(
-    pattern: Pattern, band: Floats, right: Floats, components: Indices, correction: Floats
+    pattern: Pattern, parts: list[Part], right: Floats, components: Indices, correction: Floats
 ) -> Floats:
     """Solve (K + Bᵀ C B) q = right (m,), B the rows of the transform of r displacement components.
 
     ``correction`` C (r, r) need not be symmetric; by the Woodbury formula the band stays so.
     """
     some = np.asarray(pattern.constraints.transform[components].toarray())
-    solution = solve(pattern, band, np.column_stack([right, some.T]))
+    solution = solve(pattern, parts, np.column_stack([right, some.T]))
     plain, answers = solution[:, 0], solution[:, 1:]
     inner = np.eye(len(components)) + correction @ (some @ answers)
     return np.asarray(plain - answers @ np.linalg.solve(inner, correction @ (some @ plain)))
