@@ -12,16 +12,13 @@ both ends towards the middle, so that a curve run through backwards gives the sa
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from springcad.geometry.biarc_stretches import ComplexPoints, joint_of, longest_stretches
 from springcad.geometry.outline import Arc, Circle, Contour, Curve, Floats, Line, Outline, Piece
 from springcad.geometry.polyline import BulgePolyline
-
-ComplexPoints = NDArray[np.complex128]
 
 DEFAULT_TOLERANCE = 2e-6
 """Largest deviation of fitted arcs from a curve (m)."""
@@ -53,13 +50,8 @@ def biarc_joints(
     Points and unit tangents x + i y, of any one shape. Where the ends ask for two half circles
     (equal tangents across the chord) there is no such biarc and the result is not finite.
     """
-    v, total, apart = end - start, start_tangent + end_tangent, start_tangent - end_tangent
-    along, squared = (v.conj() * total).real, (v.conj() * v).real
-    # 1 - t0·t1 = |t0 - t1|²/2, without cancellation; this form of the root is exact at t0 = t1.
-    spread = (apart.conj() * apart).real
     with np.errstate(divide="ignore", invalid="ignore"):
-        d = squared / (along + np.sqrt(along**2 + spread * squared))
-        return 0.5 * (start + end + d * apart), (v - d * total) / (2.0 * d)
+        return joint_of(start, start_tangent, end, end_tangent)
 
 
 def arc_bulges(start: Floats, tangent: Floats, end: Floats) -> Floats:
@@ -231,67 +223,5 @@ def _without_needless_joints(points: Floats, tangents: Floats) -> _Chain:
 def _knots(curve: Curve, tolerance: float) -> tuple[Floats, Floats]:
     """Points and tangents where the biarcs of the fit begin and end."""
     points, headings = _with_joints(curve.points, curve.tangents)
-
-    def fits(first: int, last: int) -> bool:
-        window = slice(min(first, last), max(first, last) + 1)
-        return _deviation(points[window], headings[window]) <= tolerance
-
-    front, back = [0], [len(points) - 1]
-    while not fits(front[-1], back[-1]):
-        ahead = _reach(fits, front[-1], back[-1])
-        behind = _reach(fits, back[-1], front[-1])
-        middle = (ahead + behind) // 2
-        if ahead < behind:
-            front.append(ahead)
-            back.append(behind)
-        elif fits(front[-1], middle) and fits(middle, back[-1]):
-            # Two biarcs are enough for what is left: they meet half way.
-            front.append(middle)
-            break
-        else:
-            front.append(ahead)
-    knots = front + back[::-1]
+    knots = longest_stretches(points, headings, tolerance)
     return _as_pairs(points[knots]), _as_pairs(headings[knots])
-
-
-def _reach(fits: Callable[[int, int], bool], origin: int, limit: int) -> int:
-    """The farthest sample from ``origin`` towards ``limit`` that one biarc attains.
-
-    Samples have the even indices; the span is doubled as long as it fits, then bisected.
-    """
-    step = 2 if limit > origin else -2
-    most = (limit - origin) // step
-    good, bad = 0, 1
-    while bad <= most and fits(origin, origin + step * bad):
-        good, bad = bad, min(2 * bad, most) if bad < most else most + 1
-    if good == 0:
-        raise ValueError(f"curve turns too far within one interval, after point {origin // 2}")
-    while bad - good > 1:
-        middle = (good + bad) // 2
-        good, bad = (middle, bad) if fits(origin, origin + step * middle) else (good, middle)
-    return origin + step * good
-
-
-def _deviation(points: ComplexPoints, headings: ComplexPoints) -> float:
-    """Largest distance of the points of a stretch from the biarc between its ends; inf if none.
-
-    The stretch must nowhere turn by 90° or more from the direction at the joint: it and the biarc
-    are then two graphs over the same axis and this distance is the distance both ways.
-    """
-    start, end = points[0], points[-1]
-    joint, direction = biarc_joints(start, headings[0], end, headings[-1])
-    if not np.isfinite(joint) or (headings * direction.conj()).real.min() <= 0.0:
-        return np.inf
-    local = (points - joint) * direction.conj()
-    along, across = local.real, local.imag
-    before, after = _curvature(start, headings[0], joint), _curvature(joint, direction, end)
-    curvature = np.where(along < 0.0, before, after)
-    # Distance from the circle through the joint, in a form that is exact for a straight line.
-    bent = curvature * (along**2 + across**2) - 2.0 * across
-    root = np.sqrt(np.maximum(1.0 + curvature * bent, 0.0))
-    return float((np.abs(bent) / (1.0 + root)).max())
-
-
-def _curvature(start: ComplexPoints, tangent: ComplexPoints, end: ComplexPoints) -> Floats:
-    chord = end - start
-    return 2.0 * (tangent.conj() * chord).imag / (chord.conj() * chord).real

@@ -41,7 +41,8 @@ class PanelGrid:
         Points outside the interval are extrapolated by the first or last panel's polynomial.
         """
         last = len(self.edges) - 2
-        panel = np.clip(np.searchsorted(self.edges, points, side="right") - 1, 0, last)
+        panel = np.searchsorted(self.edges, points, side="right") - 1
+        panel = np.minimum(np.maximum(panel, 0), last)
         left, right = self.edges[panel], self.edges[panel + 1]
         local = (2.0 * points - left - right) / (right - left)
         legendre = np.polynomial.legendre.legvander(local, self.order - 1) @ _to_legendre(
@@ -49,7 +50,7 @@ class PanelGrid:
         )
         matrix = np.zeros((len(points), len(self.nodes)))
         columns = panel[:, None] * self.order + np.arange(self.order)
-        np.put_along_axis(matrix, columns, legendre, axis=1)
+        matrix[np.arange(len(points))[:, None], columns] = legendre
         return matrix
 
 

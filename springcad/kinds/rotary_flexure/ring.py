@@ -142,17 +142,29 @@ def flexure_pieces(
     Raises:
         ValueError: there is no root fillet of that radius.
     """
-    left, right = (root_fillet(ribbon, root_radius, fillet, side) for side in (1, -1))
+    (left, upwards), (right, downwards) = (
+        flexure_side(ribbon, root_radius, fillet, blend, side) for side in (1, -1)
+    )
+    return (left.arc, *upwards, nose_arc(ribbon), *backwards(downwards), right.arc)
+
+
+def flexure_side(
+    ribbon: Ribbon, root_radius: float, fillet: float, blend: float, side: int
+) -> tuple[Fillet, tuple[Line | Arc, ...]]:
+    """The root fillet of a side, and the edge as it is cut from there to the nose."""
+    found = root_fillet(ribbon, root_radius, fillet, side)
+    return found, _edge(ribbon, found.station, blend, side)
+
+
+def nose_arc(ribbon: Ribbon) -> Arc:
+    """The round end of the flexure, from its left to its right."""
     end = ribbon.at(np.array([ribbon.length]))
-    nose = Arc(
+    return Arc(
         center=(float(end.x[0]), float(end.y[0])),
         radius=float(end.half_thickness[0]),
         start_angle=float(end.angle[0]) + 0.5 * math.pi,
         sweep=-math.pi,
     )
-    upwards = _edge(ribbon, left.station, blend, 1)
-    downwards = backwards(_edge(ribbon, right.station, blend, -1))
-    return (left.arc, *upwards, nose, *downwards, right.arc)
 
 
 def ring_profile(

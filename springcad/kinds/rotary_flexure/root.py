@@ -59,15 +59,17 @@ def root_with(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float
     Raises:
         InfeasibleError: not even the smallest of the process fits.
     """
-    fits = largest_fillet(
-        ribbon,
-        case.inputs.root_radius,
-        case.inputs.count,
-        spec.process.rules.min_inside_radius,
-        fillet,
-    )
-    model = _calibrated(spec, case, ribbon, _model(spec, case, ribbon, fits))
-    return Root(fits, blend_radius(spec), model)
+    return _root(spec, case, ribbon, _fitting(spec, case, ribbon, fillet))
+
+
+def _root(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float) -> Root:
+    model = _calibrated(spec, case, ribbon, _model(spec, case, ribbon, fillet))
+    return Root(fillet, blend_radius(spec), model)
+
+
+def _fitting(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, fillet: float) -> float:
+    inputs, smallest = case.inputs, spec.process.rules.min_inside_radius
+    return largest_fillet(ribbon, inputs.root_radius, inputs.count, smallest, fillet)
 
 
 def chosen_root(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, earlier: Root | None) -> Root:
@@ -84,16 +86,15 @@ def chosen_root(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, earlier: Ro
     inputs, smallest = case.inputs, spec.process.rules.min_inside_radius
     thickness = _root_thickness(ribbon)
     largest = max(_in_steps(math.floor, LARGEST_FILLET * thickness), smallest)
-    fits = largest_fillet(ribbon, inputs.root_radius, inputs.count, smallest, largest)
     if earlier is not None:
         first, slope = earlier.fillet, earlier.stiffening
     else:
         leans = ribbon.root_angle != 0.0
-        first = _in_steps(round, FIRST_FILLET * thickness) if leans else fits
+        first = _in_steps(round, FIRST_FILLET * thickness) if leans else largest
         slope = STIFFENING
 
     def within(radius: float) -> float:
-        return min(fits, max(smallest, radius))
+        return _fitting(spec, case, ribbon, min(largest, max(smallest, radius)))
 
     def excess(radius: float) -> float:
         """Coefficient of the root compliance: what the fillet leaves of the rim's softness."""
@@ -105,7 +106,7 @@ def chosen_root(spec: RotaryFlexureSpec, case: Case, ribbon: Ribbon, earlier: Ro
     if chosen != tried:
         fell = (excess(tried) - excess(chosen)) * thickness / (chosen - tried)
         slope = min(max(fell, 0.5 * STIFFENING), 2.0 * STIFFENING)
-    return replace(root_with(spec, case, ribbon, chosen), stiffening=slope)
+    return replace(_root(spec, case, ribbon, chosen), stiffening=slope)
 
 
 def _in_steps(whole: Callable[[float], int], length: float) -> float:

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from springcad.geometry.outline import Arc, Curve, Line, Piece
+from springcad.geometry.outline import Arc, Line
 from springcad.geometry.ribbon import Ribbon
 from springcad.geometry.transform import backwards
-from springcad.kinds.rotary_flexure.ring import edge_points, flexure_pieces, root_fillet
+from springcad.kinds.rotary_flexure.ring import edge_points, flexure_side, nose_arc
 from springcad.mechanics.fem.blocks import straight
 
 Floats = NDArray[np.float64]
@@ -73,7 +73,7 @@ class RootSide:
     corner: Floats
     corner_angle: float
     inner: Floats
-    flank: tuple[Piece, ...]
+    flank: tuple[Line | Arc, ...]
 
     @property
     def end(self) -> Floats:
@@ -112,22 +112,16 @@ def sector_skeleton(sector: SectorGeometry) -> Skeleton:
     Raises:
         ValueError: there is no such root fillet.
     """
-    pieces = flexure_pieces(sector.ribbon, sector.root_radius, sector.fillet, sector.blend)
-    tip = next(k for k, p in enumerate(pieces) if isinstance(p, Arc) and p.sweep == -math.pi)
-    nose = pieces[tip]
-    assert isinstance(nose, Arc)
     rim = sector.outer_radius - sector.root_radius
     skin = min(SKIN * sector.root_thickness, SKIN_OF_RIM * rim)
-    left = _root_side(sector, pieces[:tip], skin, 1)
-    right = _root_side(sector, backwards(pieces[tip + 1 :]), skin, -1)
-    return Skeleton(left, right, skin, nose)
+    left, right = (_root_side(sector, skin, sign) for sign in (1, -1))
+    return Skeleton(left, right, skin, nose_arc(sector.ribbon))
 
 
-def _root_side(sector: SectorGeometry, edge: tuple[Piece, ...], skin: float, sign: int) -> RootSide:
-    """One side; ``edge`` begins with the fillet."""
-    root, arc = sector.root_radius, edge[0]
-    fillet = root_fillet(sector.ribbon, root, sector.fillet, sign)
-    assert fillet is not None  # flexure_pieces has found it
+def _root_side(sector: SectorGeometry, skin: float, sign: int) -> RootSide:
+    root = sector.root_radius
+    fillet, flank = flexure_side(sector.ribbon, root, sector.fillet, sector.blend, sign)
+    (arc,) = (fillet.arc,) if sign > 0 else backwards((fillet.arc,))
     assert isinstance(arc, Arc)
     here = np.array([fillet.station])
     (inner,) = skin_face(sector.ribbon, here, sign)
@@ -143,7 +137,7 @@ def _root_side(sector: SectorGeometry, edge: tuple[Piece, ...], skin: float, sig
         corner=corner,
         corner_angle=_polar_angle(corner, root),
         inner=inner,
-        flank=edge[1:],
+        flank=flank,
     )
 
 
@@ -184,20 +178,28 @@ def _towards_rim(start: Floats, tangent: Floats, root_radius: float, radius: flo
     return np.asarray(start + reach * heading)
 
 
-def _nearest(pieces: tuple[Piece, ...], points: Floats) -> Floats:
+def _nearest(pieces: tuple[Line | Arc, ...], points: Floats) -> Floats:
     """The points (M, 2) of a chain of lines and arcs that are nearest to ``points`` (M, 2)."""
-    candidates = np.stack([_nearest_on(piece, points) for piece in pieces])
+    lines = [piece for piece in pieces if isinstance(piece, Line)]
+    arcs = [piece for piece in pieces if isinstance(piece, Arc)]
+    candidates = np.concatenate(
+        [*(_nearest_on_line(line, points)[None] for line in lines), _nearest_on_arcs(arcs, points)]
+    )
     best = np.argmin(np.sum((candidates - points) ** 2, axis=-1), axis=0)
     return np.asarray(candidates[best, np.arange(len(points))])
 
 
-def _nearest_on(piece: Piece, points: Floats) -> Floats:
-    assert not isinstance(piece, Curve)
-    if isinstance(piece, Line):
-        start, along = np.asarray(piece.start), np.subtract(piece.end, piece.start)
-        share = (points - start) @ along / (along @ along)
-        return straight(start, start + along, np.clip(share, 0.0, 1.0))
-    away = points - piece.center
-    turn = np.arctan2(away[:, 1], away[:, 0]) - piece.start_angle - 0.5 * piece.sweep
+def _nearest_on_line(line: Line, points: Floats) -> Floats:
+    start, along = np.asarray(line.start), np.subtract(line.end, line.start)
+    share = (points - start) @ along / (along @ along)
+    return straight(start, start + along, np.clip(share, 0.0, 1.0))
+
+
+def _nearest_on_arcs(arcs: list[Arc], points: Floats) -> Floats:
+    """On each of K arcs (K, M, 2)."""
+    rows = [(*arc.center, arc.radius, arc.start_angle, arc.sweep) for arc in arcs]
+    x, y, radius, start, sweep = np.array(rows).reshape(-1, 5).T[:, :, None]
+    turn = np.arctan2(points[:, 1] - y, points[:, 0] - x) - start - 0.5 * sweep
     turn -= 2.0 * math.pi * np.round(turn / (2.0 * math.pi))
-    return on_arc(piece, np.clip(0.5 + turn / piece.sweep, 0.0, 1.0))
+    angle = start + np.clip(0.5 + turn / sweep, 0.0, 1.0) * sweep
+    return np.stack([x + radius * np.cos(angle), y + radius * np.sin(angle)], axis=-1)

@@ -75,14 +75,22 @@ def prepare_solid(mesh: Mesh, sheet: Sheet) -> Solid:
     """
     points, rule = gauss_points()
     derivatives = shape_functions(points)[1]
-    jacobian = np.einsum("gka,eai->egki", derivatives, mesh.nodes[mesh.elements])
-    determinant = np.linalg.det(jacobian)
+    nodal = mesh.nodes[mesh.elements]
+    (ax, bx), (ay, by) = (
+        (derivatives.reshape(-1, 8) @ nodal)
+        .reshape(len(nodal), len(rule), 2, 2)
+        .transpose(3, 2, 0, 1)
+    )
+    determinant = ax * by - ay * bx
     if np.any(determinant <= 0.0):
         bad = np.flatnonzero(np.any(determinant <= 0.0, axis=1))
         raise ValueError(f"element {bad[0]} has no positive area everywhere ({len(bad)} such)")
-    gradients = np.einsum("egik,gka->egia", np.linalg.inv(jacobian), derivatives)
-    weights = determinant * rule * sheet.thickness
-    return Solid(mesh, sheet, np.ascontiguousarray(gradients), weights)
+    along, across = derivatives.transpose(1, 0, 2)
+    inverse = (1.0 / determinant)[..., None]
+    gradients = np.empty((*determinant.shape, 2, 8))
+    gradients[:, :, 0] = (by[..., None] * along - ay[..., None] * across) * inverse
+    gradients[:, :, 1] = (ax[..., None] * across - bx[..., None] * along) * inverse
+    return Solid(mesh, sheet, gradients, determinant * rule * sheet.thickness)
 
 
 def deformation(solid: Solid, displacement: Floats) -> Deformation:

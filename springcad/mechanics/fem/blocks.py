@@ -113,15 +113,16 @@ def join(blocks: Mapping[str, Floats], edge_sets: Mapping[str, Sequence[tuple[st
     Raises:
         ValueError: an element is turned inside out or has no area.
     """
-    grids, points, cells, first = {}, [], [], 0
+    grids, points, cells, borders, first = {}, [], [], [], 0
     for name, block in blocks.items():
         rows, columns = block.shape[:2]
         grids[name] = first + np.arange(rows * columns).reshape(rows, columns)
         points.append(block.reshape(-1, 2))
         cells.append(_cells(grids[name]))
+        borders.append(_border(grids[name]))
         first += rows * columns
     elements = np.concatenate(cells)
-    nodes, number = _merged(np.concatenate(points), elements)
+    nodes, number = _merged(np.concatenate(points), np.concatenate(borders), elements)
     edges = {
         name: np.concatenate([number[_side_edges(grids[block], side)] for block, side in sides])
         for name, sides in edge_sets.items()
@@ -161,8 +162,8 @@ def mesh_area(mesh: Mesh) -> float:
 
 def _area_scales(mesh: Mesh, local: Floats) -> tuple[Floats, Floats, Floats]:
     """Jacobian determinant and lengths of its two columns (E, M) at ``local`` points (M, 2)."""
-    lines = np.einsum("mka,eai->kiem", shape_functions(local)[1], mesh.nodes[mesh.elements])
-    (ax, ay), (bx, by) = lines
+    lines = shape_functions(local)[1].reshape(-1, 8) @ mesh.nodes[mesh.elements]
+    (ax, ay), (bx, by) = lines.reshape(-1, len(local), 2, 2).transpose(2, 3, 0, 1)
     return ax * by - ay * bx, np.hypot(ax, ay), np.hypot(bx, by)
 
 
@@ -183,6 +184,11 @@ def _cells(grid: Indices) -> Indices:
     return np.stack([grid[i, j].ravel() for i, j in order], axis=1)
 
 
+def _border(grid: Indices) -> Indices:
+    """Node numbers along the four sides of a grid."""
+    return np.concatenate([grid[0], grid[-1], grid[1:-1, 0], grid[1:-1, -1]])
+
+
 def _side_edges(grid: Indices, side: Side) -> Indices:
     """Edges (K, 3) of a side, counter-clockwise round the block."""
     sides = {
@@ -192,12 +198,17 @@ def _side_edges(grid: Indices, side: Side) -> Indices:
     return np.stack([nodes[:-2:2], nodes[1:-1:2], nodes[2::2]], axis=1)
 
 
-def _merged(points: Floats, elements: Indices) -> tuple[Floats, Indices]:
-    """The distinct nodes that elements use, and for each point the number of its node."""
+def _merged(points: Floats, border: Indices, elements: Indices) -> tuple[Floats, Indices]:
+    """The distinct nodes that elements use, and for each point the number of its node.
+
+    Only points on the ``border`` of a block can be one.
+    """
     corners = points[elements[:, :4]]
     edges = np.hypot(*np.moveaxis(corners - np.roll(corners, 1, axis=1), -1, 0))
-    pairs = cKDTree(points).query_pairs(COINCIDENT * float(edges.min()), output_type="ndarray")
-    links = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(points), len(points)))
+    near = cKDTree(points[border]).query_pairs(
+        COINCIDENT * float(edges.min()), output_type="ndarray"
+    )
+    links = coo_array((np.ones(len(near)), border[near].T), shape=(len(points), len(points)))
     _, group = connected_components(links, directed=False)
     used = np.unique(elements)
     kept, first = np.unique(group[used], return_index=True)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.mechanics.fem.assembly import deformation, stiffness_blocks, stress
-from springcad.mechanics.fem.band import gather, solve
+from springcad.mechanics.fem.band import solve
 from springcad.mechanics.fem.model import Model
 
 Floats = NDArray[np.float64]
@@ -24,5 +24,5 @@ def compliance(model: Model, forces: Floats) -> Floats:
     rest = deformation(solid, np.zeros(solid.mesh.unknowns))
     blocks = stiffness_blocks(solid, rest, stress(solid.sheet, rest.strain))
     right = np.asarray(model.constraints.transform.T @ forces)
-    moved = solve(model.pattern, gather(model.pattern, [(model.element_scatter, blocks)]), right)
+    moved = solve(model.pattern, [(model.element_scatter, blocks)], right)
     return np.asarray(right.T @ moved)

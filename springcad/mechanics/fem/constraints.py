@@ -34,12 +34,14 @@ class Constraints:
 
     Attributes:
         transform: T (2 N, m).
+        free: the components that are free unknowns themselves (m,).
         lift: A (2 N, 2 N); c is zero except at slaves.
         constants: the c of the equations (2 N,) [m].
         equations: what all this was made from.
     """
 
     transform: sparse.csr_array[np.float64]
+    free: Indices
     lift: sparse.csr_array[np.float64]
     constants: Floats
     equations: Equations
@@ -122,7 +124,7 @@ def solve_constraints(unknowns: int, *parts: Equations) -> Constraints:
         chain.eliminate_zeros()
     else:
         raise ValueError("the constraints form a circle")
-    return Constraints(sparse.csr_array(chain[:, free]), lift, constants, equations)
+    return Constraints(sparse.csr_array(chain[:, free]), free, lift, constants, equations)
 
 
 def _columns(

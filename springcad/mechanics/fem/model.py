@@ -8,7 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springcad.mechanics.fem.assembly import Solid
-from springcad.mechanics.fem.band import Pattern, Scatter, number_unknowns, scatter
+from springcad.mechanics.fem.band import (
+    Pattern,
+    Scatter,
+    components_of,
+    number_unknowns,
+    scatter,
+    scatter_untouched,
+    together,
+)
 from springcad.mechanics.fem.constraints import Constraints
 from springcad.mechanics.fem.contact import Contact, ContactState
 
@@ -68,8 +76,8 @@ class Model:
 def prepare_model(solid: Solid, constraints: Constraints, contact: Contact | None = None) -> Model:
     """Number the unknowns and find where element and contact matrices go."""
     elements = solid.mesh.elements
-    pattern = number_unknowns(constraints.transform, elements)
-    where = scatter(pattern, *_block_entries(elements))
+    pattern = number_unknowns(constraints, elements)
+    where = _element_scatter(pattern, elements)
     bare = Model(solid, constraints, None, pattern, where, None)
     return bare if contact is None else with_contact(bare, contact)
 
@@ -82,14 +90,32 @@ def with_contact(model: Model, contact: Contact) -> Model:
     return replace(model, contact=contact, contact_scatter=where)
 
 
-def _block_entries(elements: Indices) -> tuple[Indices, ...]:
-    """Rows, columns and source entries of the blocks (xx, xy, yy), and of xy transposed."""
-    row = np.broadcast_to(2 * elements[:, :, None], (len(elements), 8, 8))
-    column = row.transpose(0, 2, 1)
-    xx, xy, yy = np.arange(3 * row.size).reshape(len(elements), 8, 3, 8).transpose(2, 0, 1, 3)
-    rows = np.stack([row, row, row + 1, column + 1])
-    columns = np.stack([column, column + 1, column + 1, row])
-    return rows.ravel(), columns.ravel(), np.stack([xx, xy, yy, xy]).ravel()
+def _element_scatter(pattern: Pattern, elements: Indices) -> Scatter:
+    """Where ``stiffness_blocks`` (E, 8, 3, 8) go.
+
+    Few elements have a component that an equation names: the others take the short way.
+    """
+    components = components_of(elements)
+    plain = np.all(pattern.untouched[components] >= 0, axis=1)
+
+    short, long = np.flatnonzero(plain), np.flatnonzero(~plain)
+    simple = scatter_untouched(
+        pattern, components[short], 192 * short[:, None] + _BLOCK_ENTRY[np.tril_indices(16)]
+    )
+    row, column = np.indices((16, 16)).reshape(2, -1)
+    rows, columns = components[long][:, row], components[long][:, column]
+    source = 192 * long[:, None] + _BLOCK_ENTRY[row, column]
+    tied = scatter(pattern, rows.ravel(), columns.ravel(), source.ravel())
+    return together(simple, tied)
+
+
+def _block_entries() -> Indices:
+    """Where an element's blocks (8, 3, 8) hold the entry of two of its components (16, 16)."""
+    xx, xy, yy = np.arange(192).reshape(8, 3, 8).transpose(1, 0, 2)
+    return np.array([[xx, xy], [xy.T, yy]]).transpose(2, 0, 3, 1).reshape(16, 16)
+
+
+_BLOCK_ENTRY = _block_entries()
 
 
 def no_load(model: Model) -> Load:
@@ -100,7 +126,7 @@ def no_load(model: Model) -> Load:
 
 def edge_components(contact: Contact) -> Indices:
     """Displacement components of the nodes of the contact edges (K, 6)."""
-    return (2 * contact.edges[..., None] + np.arange(2)).reshape(-1, 6)
+    return components_of(contact.edges)
 
 
 def at_edge_nodes(contact: Contact, nodal: Floats, unknowns: int) -> Floats:

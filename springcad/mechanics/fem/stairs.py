@@ -93,10 +93,8 @@ def _heights(rows: Indices, columns: Indices, count: int) -> Indices:
 
 def places(stairs: Sequence[Stair], rows: Indices, columns: Indices) -> Indices:
     """Where entries of the lower triangle are stored."""
-    ends = np.array([stair.end for stair in stairs])
-    at = np.searchsorted(ends, columns, side="right")
-    start, width, offset = np.array([(s.start, s.width, s.offset) for s in stairs]).T[:, at]
-    return np.asarray(offset + (columns - start) * (width + 1) + rows - columns)
+    base = [s.offset - s.start + (np.arange(s.start, s.end) - s.start) * s.width for s in stairs]
+    return np.asarray(np.concatenate(base)[columns] + rows)
 
 
 def storage(stairs: Sequence[Stair]) -> int:
@@ -104,18 +102,13 @@ def storage(stairs: Sequence[Stair]) -> int:
     return stairs[-1].offset + stairs[-1].size
 
 
-def solve(stairs: Sequence[Stair], entries: Floats, right: Floats) -> Floats:
-    """Solve the system with the stored ``entries`` for right-hand sides (m, c).
-
-    Cholesky, or LU with pivoting when the matrix is not positive definite (beyond a limit point).
+def solve_definite(stairs: Sequence[Stair], entries: Floats, right: Floats) -> Floats:
+    """Solve the system with the stored ``entries``, which are lost, for right sides (m, c).
 
     Raises:
-        ArithmeticError: the matrix is singular: the part is not held.
+        LinAlgError: the matrix is not positive definite.
     """
-    try:
-        factors, corners = _factorised(stairs, entries.copy())
-    except LinAlgError:
-        return _solve_indefinite(stairs, entries, right)
+    factors, corners = _factorised(stairs, entries)
     solution = right.copy()
     for stair, factor, corner in zip(stairs, factors, corners, strict=True):
         known = slice(stair.start, stair.end + stair.overlap)
@@ -162,8 +155,12 @@ def _square(entries: Floats, stair: Stair, start: int, size: int) -> Floats:
     return entries[first : first + size * stair.width].reshape(size, stair.width)[:, :size].T
 
 
-def _solve_indefinite(stairs: Sequence[Stair], entries: Floats, right: Floats) -> Floats:
-    """The same by LU with pivoting."""
+def solve_indefinite(stairs: Sequence[Stair], entries: Floats, right: Floats) -> Floats:
+    """The same by LU with pivoting, for any matrix.
+
+    Raises:
+        ArithmeticError: the matrix is singular: the part is not held.
+    """
     width = max(stair.width for stair in stairs)
     full = np.zeros((2 * width + 1, len(right)))
     for stair in stairs:

@@ -23,7 +23,7 @@ from springcad.mechanics.fem.assembly import (
     stiffness_blocks,
     stress,
 )
-from springcad.mechanics.fem.band import gather, solve, solve_corrected
+from springcad.mechanics.fem.band import solve, solve_corrected
 from springcad.mechanics.fem.contact import Contact, ContactState, History, evaluate_contact
 from springcad.mechanics.fem.contact_tangent import contact_tangent, predicted_pressure
 from springcad.mechanics.fem.model import Model, at_edge_nodes, edge_components, free_part
@@ -82,14 +82,13 @@ def newton_step(
         force = force - block_product(model.solid, blocks, lift)
     right, parts = free_part(model, force), [(model.element_scatter, blocks)]
     if model.contact is None or model.contact_scatter is None or trial.contact is None:
-        free = solve(model.pattern, gather(model.pattern, parts), right[:, None])[:, 0]
+        free = solve(model.pattern, parts, right[:, None])[:, 0]
         return np.asarray(model.constraints.transform @ free + lift)
 
     tangent = contact_tangent(model.contact, trial.contact, expected.pressure)
     parts.append((model.contact_scatter, tangent.symmetric))
-    band = gather(model.pattern, parts)
     components, correction = _assembled(model.contact, tangent.remainder)
-    free = solve_corrected(model.pattern, band, right, components, correction)
+    free = solve_corrected(model.pattern, parts, right, components, correction)
     return np.asarray(model.constraints.transform @ free + lift)
 
 
