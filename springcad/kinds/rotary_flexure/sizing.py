@@ -12,8 +12,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
@@ -29,6 +27,7 @@ from springcad.kinds.rotary_flexure.correction import (
 from springcad.kinds.rotary_flexure.full_load import demand_of, loads_of, stiffness_at_rest
 from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
+from springcad.kinds.rotary_flexure.relief import Relief, allowed_share
 from springcad.kinds.rotary_flexure.ring import FILLET_STEP
 from springcad.kinds.rotary_flexure.root import Root, chosen_root, flexure_on, root_with
 from springcad.kinds.rotary_flexure.root_compliance import RootModel
@@ -44,8 +43,6 @@ from springcad.kinds.target_law import Law, law_of, polynomial
 from springcad.mechanics.beam import BeamStates, PreparedBeam
 from springcad.result import Progress
 
-Floats = NDArray[np.float64]
-
 SOFTER = 0.9995
 """Stiffness at rest, over the wanted one, that the sizing aims at: a flexure that is too stiff
 would have to be touched beyond its nose."""
@@ -60,13 +57,6 @@ SHAPED = 3
 thickness, so that the passes settle."""
 FILLETED = 2
 """In the first passes the fillet is chosen; then it stays."""
-ROOT_REACH = 1.5
-"""Length over root thickness along which a root is thickened for the sake of its fillets."""
-FILLET_AIM = 0.998
-"""Stress of the fillets, over its limit, that the sizing aims at: it stops near its aim, and on
-the safe side of the limit."""
-LEAST_RELIEF = 0.3
-"""The root is thickened until at least this share of the design stress is left there."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +117,7 @@ def corrected_for(
     """
     inputs = case.inputs
     demand = demand_of(target, inputs.root_radius, inputs.contact_radius, inputs.count)
-    root, relief = None, 1.0
+    root, relief = None, Relief()
     for number in range(PASSES):
         progress(f"correcting the flexures for full load, pass {number + 1}")
         if number < FILLETED or root is None:
@@ -138,8 +128,8 @@ def corrected_for(
         stiffness = stiffness_at_rest(found.ribbon, beam, demand)
         share = stiffness / (SOFTER * demand.stiffness)
         states = loads_of(found.ribbon, beam, demand, share)
-        relief = _relief(spec, root, states, relief)
-        load = _loading(spec, case, found.ribbon, states, relief, share)
+        relief = _relieved(spec, root, states, relief)
+        load = _loading(spec, case, found.ribbon, states, relief.share, share)
         level = 1.0 if found.line else straight_level(found.problem, found.ribbon, load)
         sized = Sized(
             found=found,
@@ -148,13 +138,14 @@ def corrected_for(
             root=root.model,
             beam=beam,
             stiffness_at_rest=case.inputs.count * stiffness,
-            root_relief=relief,
+            root_relief=relief.share,
             evenness=load.unevenness(found.ribbon, level),
             level=level,
             passes=number,
         )
         as_stiff = abs(share - 1.0) <= CLOSE
-        if as_stiff and (sized.evenness <= EVEN or number == PASSES - 1):
+        even = sized.evenness <= EVEN and relief.kept
+        if as_stiff and (even or number == PASSES - 1):
             return sized
         problem = corrected(found.problem, found.ribbon, load, level)
         if found.line and number < SHAPED:
@@ -184,29 +175,15 @@ def _loading(
     )
 
 
-def allowed_share(ribbon: Ribbon, stations: Floats, relief: float) -> Floats:
-    """Allowed stress over the design stress along a flexure (K,): ``relief`` at the root."""
-    reach = ROOT_REACH * 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
-    share = np.minimum(stations / reach, 1.0)
-    return np.asarray(1.0 - (1.0 - relief) * (1.0 - share) ** 2 * (1.0 + 2.0 * share))
-
-
-def _relief(
-    spec: RotaryFlexureSpec,
-    root: Root,
-    states: tuple[BeamStates, BeamStates],
-    earlier: float,
-) -> float:
-    """Stress to be allowed at the root over the design stress, so that the fillets keep theirs.
-
-    A thicker root has a larger stress factor, about as relief^-0.5, hence the square.
-    """
+def _relieved(
+    spec: RotaryFlexureSpec, root: Root, states: tuple[BeamStates, BeamStates], relief: Relief
+) -> Relief:
+    """The relief of the root that the stress of its fillets asks for."""
     limit = spec.flexures.fillet_stress
     if limit is None:
-        return 1.0
+        return relief
     nominal = max(float(state.nominal_stress[-1, 0]) for state in states)
-    spare = FILLET_AIM * limit / (root.model.fillet_stress_factor * nominal)
-    return min(1.0, max(LEAST_RELIEF, round(earlier * spare**2, 6)))
+    return relief.after(root.model.fillet_stress_factor * nominal, limit)
 
 
 def _with_allowance(
