@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 ROOT_PANELS = 4
 """Of a straight flexure's panels the first, half as long as the flexure, is split into so many:
-the thickness of a root that is relieved for its fillets' sake changes over a fifth of the length."""
+a root that is thickened for its fillets' sake (``relief``) changes over a fifth of the length."""
 
 
 def graded_towards_tip(pad_start: float, remaining: float) -> list[float]:

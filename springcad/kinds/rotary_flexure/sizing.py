@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.case import Case
