@@ -12,6 +12,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.case import Case
@@ -51,6 +53,8 @@ EVEN = 0.004
 """and within this share of the allowed stress, or after all passes: where the inner fibres count,
 the thickness cannot follow every change of side of a bend. The checks judge what is left."""
 PASSES = 16
+STILL = 1e-4
+"""A pass that changes neither share by more changes nothing any more: more would be lost."""
 SHAPED = 3
 """In the first passes the shape is optimised for its gap at full load; then it only follows the
 thickness, so that the passes settle."""
@@ -116,7 +120,7 @@ def corrected_for(
     """
     inputs = case.inputs
     demand = demand_of(target, inputs.root_radius, inputs.contact_radius, inputs.count)
-    root, relief = None, Relief()
+    root, relief, before = None, Relief(), np.zeros(2)
     for number in range(PASSES):
         progress(f"correcting the flexures for full load, pass {number + 1}")
         if number < FILLETED or root is None:
@@ -144,8 +148,14 @@ def corrected_for(
         )
         as_stiff = abs(share - 1.0) <= CLOSE
         even = sized.evenness <= EVEN and relief.kept
-        if as_stiff and (even or number == PASSES - 1):
+        now = np.array([share, sized.evenness])
+        still = number > SHAPED and np.abs(now - before).max() < STILL
+        last = still or number == PASSES - 1
+        if as_stiff and (even or last):
             return sized
+        if last:
+            break
+        before = now
         problem = corrected(found.problem, found.ribbon, load, level)
         if found.line and number < SHAPED:
             problem = _with_allowance(problem, found.ribbon, beam, states)
