@@ -12,8 +12,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.case import Case
@@ -33,6 +31,7 @@ from springcad.kinds.rotary_flexure.ring import FILLET_STEP
 from springcad.kinds.rotary_flexure.root import Root, chosen_root, flexure_on, root_with
 from springcad.kinds.rotary_flexure.root_compliance import RootModel
 from springcad.kinds.rotary_flexure.search import Found, adapted, find_shape
+from springcad.kinds.rotary_flexure.settling import CLOSE, EVEN, Settling
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.straight_limit import (
     STRAIGHT_EXCESS,
@@ -47,14 +46,7 @@ from springcad.result import Progress
 SOFTER = 0.9995
 """Stiffness at rest, over the wanted one, that the sizing aims at: a flexure that is too stiff
 would have to be touched beyond its nose."""
-CLOSE = 0.0004
-"""It stops within this share of its aim, so within 0.1 % of the wanted stiffness,"""
-EVEN = 0.004
-"""and within this share of the allowed stress, or after all passes: where the inner fibres count,
-the thickness cannot follow every change of side of a bend. The checks judge what is left."""
 PASSES = 16
-STILL = 1e-4
-"""A pass that changes neither share by more changes nothing any more: more would be lost."""
 SHAPED = 3
 """In the first passes the shape is optimised for its gap at full load; then it only follows the
 thickness, so that the passes settle."""
@@ -120,7 +112,9 @@ def corrected_for(
     """
     inputs = case.inputs
     demand = demand_of(target, inputs.root_radius, inputs.contact_radius, inputs.count)
-    root, relief, before = None, Relief(), np.zeros(2)
+    root, relief, settling = None, Relief(), Settling()
+    kept: Sized | None = None
+    best = (True, math.inf)
     for number in range(PASSES):
         progress(f"correcting the flexures for full load, pass {number + 1}")
         if number < FILLETED or root is None:
@@ -140,26 +134,26 @@ def corrected_for(
             blend=root.blend,
             root=root.model,
             beam=beam,
-            stiffness_at_rest=case.inputs.count * stiffness,
+            stiffness_at_rest=inputs.count * stiffness,
             root_relief=relief.share,
             evenness=load.unevenness(found.ribbon, level),
             level=level,
             passes=number,
         )
-        as_stiff = abs(share - 1.0) <= CLOSE
-        even = sized.evenness <= EVEN and relief.kept
-        now = np.array([share, sized.evenness])
-        still = number > SHAPED and np.abs(now - before).max() < STILL
-        last = still or number == PASSES - 1
-        if as_stiff and (even or last):
+        off = abs(share - 1.0)
+        rank = (not relief.kept, sized.evenness)
+        if off <= CLOSE and rank <= best:
+            kept, best = sized, rank
+        if kept is sized and rank <= (False, EVEN):
             return sized
-        if last:
+        if settling.ended(off, sized.evenness, shaping=number <= SHAPED):
             break
-        before = now
         problem = corrected(found.problem, found.ribbon, load, level)
         if found.line and number < SHAPED:
             problem = _with_allowance(problem, found.ribbon, beam, states)
         found = adapted(spec, found, problem, freeze=number >= SHAPED)
+    if kept is not None:
+        return kept
     wanted = inputs.count * demand.stiffness
     claim = "stiffness at rest that the sizing arrives at"
     raise InfeasibleError(claim, sized.stiffness_at_rest, wanted, "N*m/rad")
