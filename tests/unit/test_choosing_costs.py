@@ -14,10 +14,11 @@ from springcad.kinds.rotary_flexure import climbing, design
 from springcad.kinds.rotary_flexure.aim import Aim, Pair
 from springcad.kinds.rotary_flexure.candidates import WEAK_CORE, candidate, core_shear, forbidden
 from springcad.kinds.rotary_flexure.checks import full_load_gaps
-from springcad.kinds.rotary_flexure.climbing import Climb, Design, Stop
+from springcad.kinds.rotary_flexure.climbing import Climb
 from springcad.kinds.rotary_flexure.design import spring_of, spring_with_room
 from springcad.kinds.rotary_flexure.screening import Screened
 from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.kinds.rotary_flexure.tried import Design, Stop
 
 RING = Pair(24, 4.5e-3)
 PLAIN = ("optimiser={starts: 2}", "flexures.min_deformed_gap=0.15 mm")

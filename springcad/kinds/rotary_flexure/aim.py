@@ -117,6 +117,21 @@ class Aim:
         margin = MARGIN_STEP * level if self.objective == "margin" else 0.0
         return _resolved(_tightened(_with_rim(spec, margin), margin))
 
+    def level_within(self, pair: Pair, level: int, share: float) -> int:
+        """The last level at which straight flexures reach what they are asked for.
+
+        At ``level`` they reach this ``share`` of the deflection. It is about proportional to the
+        allowed stress and to their length (004, Eq. 9).
+        """
+        if self.objective == "deflection":
+            return math.floor(share * level)
+        if self.objective == "margin":
+            return math.floor((share * (1.0 + MARGIN_STEP * level) - 1.0) / MARGIN_STEP)
+        if self.objective == "diameter":
+            longer = (self.value(level) - pair.contact_radius) / share
+            return math.floor((self.largest_root - pair.contact_radius - longer) / self.root_step)
+        return level - 1
+
     def value(self, level: int) -> float:
         """What the level stands for: rad, margin, or root radius in m."""
         if self.objective == "deflection":

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from springcad.errors import InfeasibleError
 from springcad.kinds.rotary_flexure.aim import Aim, Pair
 from springcad.kinds.rotary_flexure.candidates import pairs
-from springcad.kinds.rotary_flexure.climbing import Design
 from springcad.kinds.rotary_flexure.feasibility import closed_forms
+from springcad.kinds.rotary_flexure.tried import Design
 from springcad.result import Check
 
 

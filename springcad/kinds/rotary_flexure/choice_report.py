@@ -11,9 +11,9 @@ import numpy as np
 from springcad.kinds.rotary_flexure.aim import Pair
 from springcad.kinds.rotary_flexure.candidates import forbidden, rounded_up
 from springcad.kinds.rotary_flexure.choosing import Choice
-from springcad.kinds.rotary_flexure.climbing import Design, Stop
 from springcad.kinds.rotary_flexure.numbers import bound_of
 from springcad.kinds.rotary_flexure.rim import rim_check
+from springcad.kinds.rotary_flexure.tried import Design, Stop
 from springcad.result import Result, Value
 
 NEXT = 1.02

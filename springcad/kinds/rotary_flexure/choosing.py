@@ -26,10 +26,11 @@ from springcad.kinds.rotary_flexure.candidates import (
     worth,
 )
 from springcad.kinds.rotary_flexure.choice_refusal import nothing_made, nothing_possible
-from springcad.kinds.rotary_flexure.climbing import MISSES, Build, Climb, Design
+from springcad.kinds.rotary_flexure.climbing import MISSES, Build, Climb
 from springcad.kinds.rotary_flexure.screening import Screened, screened
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
+from springcad.kinds.rotary_flexure.tried import Design
 from springcad.result import Progress
 
 PATIENCE = 3
@@ -84,10 +85,12 @@ def choose(spec: RotaryFlexureSpec, build: Build, progress: Progress) -> Choice:
         raise nothing_possible(aim)
     considered = _considered(aim, allowed, progress)
     search = Climb(aim, build, progress)
+    fallen_back = False
     for ring in _order(aim, considered):
         search.climb(ring)
-        if search.best is None and len(search.designs) >= MISSES:
+        if search.best is None and not fallen_back and len(search.designs) >= MISSES:
             search.straight(allowed)
+            fallen_back = True
     search.straight(allowed)
     best = search.best
     if best is None or best.spring is None:

@@ -15,66 +15,29 @@ from dataclasses import dataclass, field
 
 from springcad.errors import InfeasibleError
 from springcad.kinds.rotary_flexure.aim import Aim, Pair
-from springcad.kinds.rotary_flexure.camshaft import NO_TOOTH
 from springcad.kinds.rotary_flexure.candidates import Candidate, candidate, rounded_up, worth
 from springcad.kinds.rotary_flexure.case import Case
-from springcad.kinds.rotary_flexure.checks import DEFORMED_GAP, THIN_TOOTH, spring_checks
+from springcad.kinds.rotary_flexure.checks import DEFORMED_GAP, spring_checks
 from springcad.kinds.rotary_flexure.feasibility import feasibility_checks
 from springcad.kinds.rotary_flexure.rim import rim_check
 from springcad.kinds.rotary_flexure.screening import Screened, screened
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
-from springcad.kinds.rotary_flexure.straight_limit import STRAIGHT_LIMIT
+from springcad.kinds.rotary_flexure.tried import Design, Stop, steps_down, steps_up
 from springcad.result import Check, Progress
 
 Build = Callable[[RotaryFlexureSpec, Case, tuple[Check, ...], Progress], Spring]
 
-DESIGNS = 7
+DESIGNS = 9
 """Springs designed at most, of rings whose shape was searched for."""
 STRAIGHT_DESIGNS = 4
 """The same of rings with straight flexures, in case those fail."""
 MISSES = 3
 """Designs of one ring that may fail before the next is tried."""
-LONGEST_STEP = 4
-"""Levels by which a design that passes is left behind at most."""
 DOUBT = 0.5
 """A ring is not designed where it is expected to miss the least level of use by more than this."""
-CAUTION = 0.02
-"""Where a shape is not found at all, the next level is lower by this share of the bound."""
 WIDER = 1.2
 """Tooth added to one that came out too thin, over what it lacks."""
-
-
-@dataclass(frozen=True)
-class Stop:
-    """The limit that a ring did not keep; SI."""
-
-    claim: str
-    value: float
-    limit: float
-    unit: str
-
-    @property
-    def lack(self) -> float | None:
-        """By how much a gap is too small, m; None for other limits."""
-        return self.limit - self.value if self.claim.startswith("gap") else None
-
-    @property
-    def tooth(self) -> float | None:
-        """Thickness of a tooth that is too thin, m, negative for none; None for other limits."""
-        return self.value if self.claim in (THIN_TOOTH, NO_TOOTH) else None
-
-
-@dataclass(frozen=True)
-class Design:
-    """A ring that was designed at a level: the spring if it passes, or what stopped it; with the
-    last level that closed forms allow it."""
-
-    pair: Pair
-    level: int
-    bound: int
-    spring: Spring | None
-    stop: Stop | None
 
 
 @dataclass
@@ -120,11 +83,15 @@ class Climb:
                 fell = (spare - gap) / (level - low) if low >= least else 0.0
                 fall = fell if fell > 0.0 else ring.fall
                 low, spare, misses = level, gap, 0
-                level = low + _ahead(high - low, spare, fall, stop)
+                level = low + steps_up(high - low, spare, fall, stop)
                 continue
-            high, stop, misses = level, design.stop, misses + 1
+            high, earlier, stop, misses = level, stop, design.stop, misses + 1
+            within = self._within(design)
+            if within is not None:
+                level, high = within, within + 1
+                continue
             if low >= least:
-                level = low + _ahead(high - low, spare, fall, stop)
+                level = low + steps_up(high - low, spare, fall, stop)
                 continue
             self._learn(ring, design)
             if stop is not None and stop.tooth is not None:
@@ -136,27 +103,35 @@ class Climb:
             elif stop is not None and "camshaft" in stop.claim:
                 return
             else:
-                step = max(2 * step, _back(ring, design))
+                step = steps_down(ring, design, earlier, step)
                 level = max(level - step, ring.straight) if level > ring.straight else low
         if low >= least:
             ahead = spare / fall if fall > 0.0 else 1.0
             self.optimism = ring.level - min(low + max(1.0, ahead), high)
 
     def straight(self, rings: Iterable[Candidate]) -> None:
-        """Design the rings at the level of straight flexures while that beats the best."""
+        """Design the rings at the level of straight flexures while that beats the best.
+
+        Closed forms give that level; where sizing names a lower one, it is designed next.
+        """
         left, tried = STRAIGHT_DESIGNS, {(design.pair, design.level) for design in self.designs}
         for ring in rings:
             if left == 0:
                 return
-            if (
-                not ring.has_straight
-                or not self._may_win(ring.pair, ring.straight)
-                or self._is_weak(ring.pair)
-                or (ring.pair, ring.straight) in tried
+            pair, level = ring.pair, ring.straight if ring.has_straight else None
+            while (
+                left > 0
+                and level is not None
+                and level >= self.aim.lowest
+                and self._may_win(pair, level)
+                and not self._is_weak(pair)
+                and (pair, level) not in tried
             ):
-                continue
-            left -= 1
-            self._learn(None, self.designed(ring.pair, ring.straight, ring.bound))
+                left -= 1
+                tried.add((pair, level))
+                design = self.designed(pair, level, ring.bound)
+                self._learn(None, design)
+                level = self._within(design)
 
     def designed(self, pair: Pair, level: int, bound: int) -> Design:
         """One spring in full; the best so far is remembered."""
@@ -214,6 +189,11 @@ class Climb:
         """The level that the ring is expected to reach."""
         return max(math.floor(ring.level - self.optimism), min(ring.straight, ring.bound))
 
+    def _within(self, design: Design) -> int | None:
+        """The last level of straight flexures that are too weak at this one; None for others."""
+        share = None if design.stop is None else design.stop.straight_share
+        return None if share is None else self.aim.level_within(design.pair, design.level, share)
+
     def _learn(self, ring: Screened | None, design: Design) -> None:
         """What the failure of a design says about other rings."""
         stop, pair = design.stop, design.pair
@@ -226,6 +206,8 @@ class Climb:
             self.loss = max(self.loss, lost / pair.contact_radius**3)
         if ring is not None and stop.lack is not None and ring.fall > 0.0:
             self.optimism = max(self.optimism, ring.level - design.level + stop.lack / ring.fall)
+        if ring is not None and stop.no_shape:
+            self.optimism = max(self.optimism, ring.level - design.level)
 
     def _wider(self, ring: Screened, tooth: float) -> Screened | None:
         """The ring with more tooth than that, where its radius is free and it has a shape.
@@ -248,31 +230,6 @@ class Climb:
         if wider is not None:
             self.widened.append(wider)
         return wider
-
-
-def _ahead(levels: int, spare: float, fall: float, stop: Stop | None) -> int:
-    """Levels from one that passes, with ``spare`` gap, to the next to be designed.
-
-    Args:
-        levels: up to one that fails, or to the bound.
-        fall: of the gap per level, m.
-        stop: what stopped the one that fails; None where none has been designed.
-    """
-    if stop is None:
-        steps = math.floor(spare / fall) if fall > 0.0 else 1
-        return max(1, min(steps, LONGEST_STEP, levels - 1))
-    if stop.lack is None:
-        return levels // 2
-    return max(1, math.floor(levels * spare / (spare + stop.lack)))
-
-
-def _back(ring: Screened, design: Design) -> int:
-    stop = design.stop
-    if stop is not None and stop.claim == STRAIGHT_LIMIT:
-        return math.ceil(design.level * (1.0 - stop.limit / stop.value))
-    if stop is not None and stop.lack is not None and ring.fall > 0.0:
-        return max(1, math.ceil(stop.lack / ring.fall))
-    return max(1, round(CAUTION * ring.bound))
 
 
 def _spare_gap(spring: Spring) -> float:

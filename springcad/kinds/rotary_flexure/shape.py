@@ -19,6 +19,11 @@ from springcad.kinds.rotary_flexure.problem import FlexureProblem, bend_thickeni
 Floats = NDArray[np.float64]
 
 
+ROOT_PANELS = 4
+"""Of a straight flexure's panels the first, half as long as the flexure, is split into so many:
+a root that is thickened for its fillets' sake (``relief``) changes over a fifth of the length."""
+
+
 def graded_towards_tip(pad_start: float, remaining: float) -> list[float]:
     """Panel boundaries from 0 to the pad between which sqrt(1 - x/lever) is smooth.
 
@@ -35,7 +40,9 @@ def graded_towards_tip(pad_start: float, remaining: float) -> list[float]:
 def straight_ribbon(flexure: FlexureProblem) -> Ribbon:
     """A straight flexure."""
     start = flexure.span - flexure.pad_length
-    edges = np.array([*graded_towards_tip(start, flexure.lever - start), flexure.span])
+    graded = graded_towards_tip(start, flexure.lever - start)
+    root = np.linspace(0.0, graded[1], ROOT_PANELS + 1)
+    edges = np.array([*root, *graded[2:], flexure.span])
     x = panel_grid(edges, ORDER).nodes
     none = np.zeros_like(x)
     half = half_thickness(flexure, x, none, x / start)

@@ -12,9 +12,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from springcad.errors import InfeasibleError
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.case import Case
@@ -29,10 +26,12 @@ from springcad.kinds.rotary_flexure.correction import (
 from springcad.kinds.rotary_flexure.full_load import demand_of, loads_of, stiffness_at_rest
 from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
+from springcad.kinds.rotary_flexure.relief import Relief, allowed_share
 from springcad.kinds.rotary_flexure.ring import FILLET_STEP
 from springcad.kinds.rotary_flexure.root import Root, chosen_root, flexure_on, root_with
 from springcad.kinds.rotary_flexure.root_compliance import RootModel
 from springcad.kinds.rotary_flexure.search import Found, adapted, find_shape
+from springcad.kinds.rotary_flexure.settling import CLOSE, EVEN, Settling
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.straight_limit import (
     STRAIGHT_EXCESS,
@@ -44,29 +43,15 @@ from springcad.kinds.target_law import Law, law_of, polynomial
 from springcad.mechanics.beam import BeamStates, PreparedBeam
 from springcad.result import Progress
 
-Floats = NDArray[np.float64]
-
 SOFTER = 0.9995
 """Stiffness at rest, over the wanted one, that the sizing aims at: a flexure that is too stiff
 would have to be touched beyond its nose."""
-CLOSE = 0.0004
-"""It stops within this share of its aim, so within 0.1 % of the wanted stiffness,"""
-EVEN = 0.004
-"""and within this share of the allowed stress, or after all passes: where the inner fibres count,
-the thickness cannot follow every change of side of a bend. The checks judge what is left."""
 PASSES = 16
 SHAPED = 3
 """In the first passes the shape is optimised for its gap at full load; then it only follows the
 thickness, so that the passes settle."""
 FILLETED = 2
 """In the first passes the fillet is chosen; then it stays."""
-ROOT_REACH = 1.5
-"""Length over root thickness along which a root is thickened for the sake of its fillets."""
-FILLET_AIM = 0.998
-"""Stress of the fillets, over its limit, that the sizing aims at: it stops near its aim, and on
-the safe side of the limit."""
-LEAST_RELIEF = 0.3
-"""The root is thickened until at least this share of the design stress is left there."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +112,9 @@ def corrected_for(
     """
     inputs = case.inputs
     demand = demand_of(target, inputs.root_radius, inputs.contact_radius, inputs.count)
-    root, relief = None, 1.0
+    root, relief, settling = None, Relief(), Settling()
+    kept: Sized | None = None
+    best = (True, math.inf)
     for number in range(PASSES):
         progress(f"correcting the flexures for full load, pass {number + 1}")
         if number < FILLETED or root is None:
@@ -138,8 +125,8 @@ def corrected_for(
         stiffness = stiffness_at_rest(found.ribbon, beam, demand)
         share = stiffness / (SOFTER * demand.stiffness)
         states = loads_of(found.ribbon, beam, demand, share)
-        relief = _relief(spec, root, states, relief)
-        load = _loading(spec, case, found.ribbon, states, relief, share)
+        relief = _relieved(spec, root, states, relief)
+        load = _loading(spec, case, found.ribbon, states, relief.share, share)
         level = 1.0 if found.line else straight_level(found.problem, found.ribbon, load)
         sized = Sized(
             found=found,
@@ -147,19 +134,26 @@ def corrected_for(
             blend=root.blend,
             root=root.model,
             beam=beam,
-            stiffness_at_rest=case.inputs.count * stiffness,
-            root_relief=relief,
+            stiffness_at_rest=inputs.count * stiffness,
+            root_relief=relief.share,
             evenness=load.unevenness(found.ribbon, level),
             level=level,
             passes=number,
         )
-        as_stiff = abs(share - 1.0) <= CLOSE
-        if as_stiff and (sized.evenness <= EVEN or number == PASSES - 1):
+        off = abs(share - 1.0)
+        rank = (not relief.kept, sized.evenness)
+        if off <= CLOSE and rank <= best:
+            kept, best = sized, rank
+        if kept is sized and rank <= (False, EVEN):
             return sized
+        if settling.ended(off, sized.evenness, shaping=number <= SHAPED):
+            break
         problem = corrected(found.problem, found.ribbon, load, level)
         if found.line and number < SHAPED:
             problem = _with_allowance(problem, found.ribbon, beam, states)
         found = adapted(spec, found, problem, freeze=number >= SHAPED)
+    if kept is not None:
+        return kept
     wanted = inputs.count * demand.stiffness
     claim = "stiffness at rest that the sizing arrives at"
     raise InfeasibleError(claim, sized.stiffness_at_rest, wanted, "N*m/rad")
@@ -184,29 +178,15 @@ def _loading(
     )
 
 
-def allowed_share(ribbon: Ribbon, stations: Floats, relief: float) -> Floats:
-    """Allowed stress over the design stress along a flexure (K,): ``relief`` at the root."""
-    reach = ROOT_REACH * 2.0 * float(ribbon.at(np.zeros(1)).half_thickness[0])
-    share = np.minimum(stations / reach, 1.0)
-    return np.asarray(1.0 - (1.0 - relief) * (1.0 - share) ** 2 * (1.0 + 2.0 * share))
-
-
-def _relief(
-    spec: RotaryFlexureSpec,
-    root: Root,
-    states: tuple[BeamStates, BeamStates],
-    earlier: float,
-) -> float:
-    """Stress to be allowed at the root over the design stress, so that the fillets keep theirs.
-
-    A thicker root has a larger stress factor, about as relief^-0.5, hence the square.
-    """
+def _relieved(
+    spec: RotaryFlexureSpec, root: Root, states: tuple[BeamStates, BeamStates], relief: Relief
+) -> Relief:
+    """The relief of the root that the stress of its fillets asks for."""
     limit = spec.flexures.fillet_stress
     if limit is None:
-        return 1.0
+        return relief
     nominal = max(float(state.nominal_stress[-1, 0]) for state in states)
-    spare = FILLET_AIM * limit / (root.model.fillet_stress_factor * nominal)
-    return min(1.0, max(LEAST_RELIEF, round(earlier * spare**2, 6)))
+    return relief.after(root.model.fillet_stress_factor * nominal, limit)
 
 
 def _with_allowance(
