@@ -8,16 +8,18 @@ from functools import cache
 
 import numpy as np
 import pytest
-from rotary_cases import rotary_model
+from rotary_cases import SPECS, rotary_model
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.rotary_flexure.design import build_spring, decide
+from springcad.kinds.rotary_flexure.decision import decide
+from springcad.kinds.rotary_flexure.design import build_spring
 from springcad.kinds.rotary_flexure.full_load import demand_of, loads_of
 from springcad.kinds.rotary_flexure.inputs import case_of, target_of
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.sizing import Sized, size_flexure
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.kinds.rotary_flexure.straight_limit import STRAIGHT_LIMIT, straight_limit
+from springcad.spec.source import read_spec
 
 DESIGN_STRESS = 912e6
 
@@ -54,7 +56,7 @@ def stress_along(flexure: Sized, spring_of: tuple[str, ...]) -> np.ndarray:
 @pytest.mark.slow
 def test_the_largest_deflection_of_s1_uses_the_whole_flexure() -> None:
     """``max`` ends a step of 0.05 deg or less from it, every section within 0.5 % of 912 MPa."""
-    spring, choice = decide(rotary_model("S1", "target.deflection=max"), quiet)
+    spring, choice = decide(read_spec(SPECS / "S1.yaml", ("target.deflection=max",)), quiet)
     assert choice is not None
     reached = math.degrees(spring.case.inputs.deflection)
     assert reached == pytest.approx(12.75, abs=1e-9)
