@@ -21,6 +21,7 @@ from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_o
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.refusal import Judges, Verdict, changes_that_work
 from springcad.kinds.rotary_flexure.screening import has_room
+from springcad.kinds.rotary_flexure.search import find_shape
 from springcad.kinds.rotary_flexure.shape_refusal import NoShapeError, limit_of
 from springcad.kinds.rotary_flexure.sizing import size_flexure
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
@@ -114,6 +115,10 @@ def of_a_ring(model: RotaryFlexureSpec) -> Judges:
     return Judges(partial(_ring_is_possible, densest=densest), _ring_has_room, _ring_designed)
 
 
+def _silent(_: str) -> None:
+    """Progress of a trial, which is nobody's concern."""
+
+
 def _ring_is_possible(spec: Spec, densest: float) -> bool:
     case = case_of(spec.model)
     if failures(case):
@@ -122,24 +127,25 @@ def _ring_is_possible(spec: Spec, densest: float) -> bool:
 
 
 def _ring_has_room(spec: Spec) -> bool:
-    """Whether straight flexures can be sized; of others, whether few searches leave the gap."""
+    """Whether straight flexures can be sized; of others, whether a search leaves the gap."""
     model = rotary_spec(spec.model)
     case = case_of(model).shifted
     law = design_law(case.inputs)
-    if resolved_style(law, case.style) != "straight":
-        return has_room(Trial(model, case))
     try:
-        size_flexure(model, case, law, target_of(model), lambda _: None)
+        if resolved_style(law, case.style) == "straight":
+            return bool(size_flexure(model, case, law, target_of(model), _silent))
+        if model.optimiser.form == "control-points":
+            return find_shape(model, case, law, _silent).gap >= case.min_gap
     except InfeasibleError:
         return False
-    return True
+    return has_room(Trial(model, case))
 
 
 def _ring_designed(spec: Spec) -> Verdict:
     model = rotary_spec(spec.model)
     case = case_of(model).shifted
     try:
-        spring = spring_with_room(model, case, closed_forms(case), lambda _: None)
+        spring = spring_with_room(model, case, closed_forms(case), _silent)
     except InfeasibleError as error:
         return Verdict.missed(error.claim, error.value, error.limit)
     return _verdict(spec, spring)
@@ -170,19 +176,15 @@ def _some_ring_is_straight(spec: Spec) -> bool:
     return any(ring.has_straight for ring in candidates(Aim.of(rotary_spec(spec.model))))
 
 
-def _first_straight_ring(spec: Spec) -> Verdict:
-    """Of the first ring that a choice falls back on: where that passes, the choice has a spring."""
+def _straight_ring_designed(spec: Spec) -> Verdict:
+    """Of the rings that a choice falls back on: where one passes, the choice has a spring."""
     aim = Aim.of(rotary_spec(spec.model))
-    tried = Climb(aim, spring_with_room, lambda _: None)
-    tried.straight([ring for ring in candidates(aim) if ring.has_straight][:1])
+    tried = Climb(aim, spring_with_room, _silent)
+    tried.straight(candidates(aim))
     if tried.best is not None and tried.best.spring is not None:
         return _verdict(spec, tried.best.spring)
-    stop = tried.designs[0].stop if tried.designs else None
-    return (
-        Verdict("no ring", math.inf)
-        if stop is None
-        else Verdict.missed(stop.claim, stop.value, stop.limit)
-    )
+    stop = next(design.stop for design in tried.designs if design.stop is not None)
+    return Verdict.missed(stop.claim, stop.value, stop.limit)
 
 
-OF_A_CHOICE = Judges(_some_ring_is_possible, _some_ring_is_straight, _first_straight_ring)
+OF_A_CHOICE = Judges(_some_ring_is_possible, _some_ring_is_straight, _straight_ring_designed)

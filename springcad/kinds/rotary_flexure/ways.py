@@ -74,6 +74,8 @@ def _first_round(spec: RotaryFlexureSpec, found: Sequence[Change]) -> Iterator[W
     style = OTHER_STYLE.get(spec.flexures.style)
     if style is not None:
         yield (_set("flexures.style", style),)
+    if spec.optimiser.form == "control-points":
+        yield (_set("optimiser.form", "curvature"),)
     if not isinstance(spec.flexures.root_fillet, str):
         yield (_set("flexures.root_fillet", "auto"),)
     if spec.target.law is not None and not isinstance(spec.target.deflection, str):
