@@ -64,24 +64,20 @@ def test_remedies_found_by_searching_work(
         assert spring_of(name, ONE_START, change, *overrides_of(remedy)).mass > 0.0, remedy
 
 
-CLOSED_FORM = [
-    ("S2", "target.deflection=11 deg", "flexures.style=serpentine"),
-    ("S1", "target.deflection=14 deg", "flexures.style=straight"),
-    ("S2", "flexures.count=90", "flexures.style=serpentine"),
-    ("S2", "flexures.tip_thickness=0.3 mm", "flexures.style=serpentine"),
-    ("S2", "target.deflection=21 deg", "flexures.style=serpentine"),
+FORBIDDEN = [
     ("S1", "flexures.count=54", "flexures.style=straight"),
+    ("S2", "target.deflection=21 deg", "flexures.style=serpentine"),
 ]
 
 
-@pytest.mark.parametrize(("name", "change", "style"), CLOSED_FORM)
-def test_remedies_of_the_closed_forms_pass_every_closed_form(
+@pytest.mark.parametrize(("name", "change", "style"), FORBIDDEN)
+def test_remedies_of_what_closed_forms_forbid_pass_every_closed_form(
     name: str, change: str, style: str, tmp_path: Path
 ) -> None:
     code, error = design(name, change, style, out=tmp_path)
     assert code == 4
     assert isinstance(error, InfeasibleError)
-    assert error.remedies
+    assert 1 <= len(error.remedies) <= 2
     for remedy in error.remedies:
         case = case_of(rotary_model(name, *[change, style, *overrides_of(remedy)]))
         assert failures(case) == (), remedy

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -11,14 +13,27 @@ from rotary_cases import SPECS, problem_for
 from springcad.errors import InfeasibleError
 from springcad.kinds.given_law import rise_of
 from springcad.kinds.law_spec import Law
-from springcad.kinds.rotary_flexure.changes import Change, ways_of
-from springcad.kinds.rotary_flexure.decision import decide
+from springcad.kinds.rotary_flexure.changes import Change
+from springcad.kinds.rotary_flexure.control_points import (
+    ControlPointOutcome,
+    optimise_control_points,
+)
+from springcad.kinds.rotary_flexure.decision import decide, given_by
 from springcad.kinds.rotary_flexure.feasibility import feasibility_checks
-from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec
+from springcad.kinds.rotary_flexure.inputs import case_of, rotary_spec, target_of
+from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.law_easing import eased_laws
-from springcad.kinds.rotary_flexure.refusal import Judges, changes_that_work
+from springcad.kinds.rotary_flexure.refusal import (
+    DESIGNS_OF_A_WAY,
+    Judges,
+    Verdict,
+    changes_that_work,
+)
+from springcad.kinds.rotary_flexure.shape import straight_ribbon
 from springcad.kinds.rotary_flexure.shape_refusal import BEND, GAP, NoShapeError, limit_of
+from springcad.kinds.rotary_flexure.sizing import size_flexure
 from springcad.kinds.rotary_flexure.spec_sections import Optimiser
+from springcad.kinds.rotary_flexure.ways import KNOB, Way, rounds_of
 from springcad.spec.source import Spec, changed_spec, read_spec
 
 END = math.radians(14.0)
@@ -79,29 +94,137 @@ def stiffness(spec: Spec) -> float:
     return rotary_spec(spec.model).target.stiffness or 0.0
 
 
-def test_the_mildest_change_with_a_shape_that_works_is_told() -> None:
-    """Possible from 140 down, a shape below 130, a design below 122: what is told is below that."""
-    judges = Judges(
-        lambda spec: stiffness(spec) < 140.0,
-        lambda spec: stiffness(spec) < 130.0,
-        lambda spec: () if stiffness(spec) < 122.0 else None,
+def deflection(spec: Spec) -> float:
+    return math.degrees(float(rotary_spec(spec.model).target.deflection))
+
+
+SOFTER: Way = KNOB["target.stiffness"].turned(
+    rotary_spec(spec_of("S2").model), -1, (1.01, 1.02, 1.05, 1.1, 1.2, 1.3, 1.5, 2.0)
+)
+"""150 N m/rad lowered to 149, 147, 143, 136, 125, 115, 100 and 75."""
+
+
+def all_but(limit: float) -> Callable[[Spec], Verdict]:
+    """A design that needs less stiffness than a limit, and misses it by what it has more."""
+    return lambda spec: (
+        Verdict()
+        if stiffness(spec) <= limit
+        else Verdict.missed("stiffness", stiffness(spec), limit)
     )
-    spec = spec_of("S2")
-    (words,) = changes_that_work(spec, ways_of(rotary_spec(spec.model)), judges, quiet)
-    assert words.startswith("lower target.stiffness from 150 to 1")
-    assert float(words.split(" to ")[1].split()[0]) < 122.0
+
+
+def test_the_mildest_change_with_room_that_works_is_told() -> None:
+    """Possible below 148, room below 140; so 136 is designed, and works."""
+    judges = Judges(lambda spec: stiffness(spec) < 148.0, lambda spec: stiffness(spec) < 140.0,
+                    all_but(138.0))  # fmt: skip
+    words = changes_that_work(spec_of("S2"), [[SOFTER]], judges, quiet)
+    assert words == ("lower target.stiffness from 150 to 136 N*m/rad",)
+
+
+def test_two_designs_that_fail_tell_how_far_to_go() -> None:
+    """149 and 136 fail by shares that fall in proportion: the third is the first that is enough."""
+    judges = Judges(lambda _: True, lambda _: True, all_but(101.0))
+    words = changes_that_work(spec_of("S2"), [[SOFTER]], judges, quiet)
+    assert words == ("lower target.stiffness from 150 to 100 N*m/rad",)
+
+
+def test_a_way_that_gets_no_nearer_is_left_after_two_designs() -> None:
+    tried: list[str] = []
+    judges = Judges(lambda _: True, lambda _: True, lambda _: Verdict("gap", 0.3))
+    assert changes_that_work(spec_of("S2"), [[SOFTER]], judges, tried.append) == ()
+    assert len(tried) == 2 < DESIGNS_OF_A_WAY
 
 
 def test_a_change_that_needs_another_is_told_with_it() -> None:
     loose = Change.of("camshaft.backlash", "0.1 mm", "raise camshaft.backlash to 0.1 mm", 0.0)
 
-    def missing(spec: Spec) -> tuple[Change, ...]:
-        return () if rotary_spec(spec.model).camshaft.backlash > 0.09e-3 else (loose,)
+    def design(spec: Spec) -> Verdict:
+        enough = rotary_spec(spec.model).camshaft.backlash > 0.09e-3
+        return Verdict() if enough else Verdict("interference", 1.0, loose)
 
-    judges = Judges(lambda spec: stiffness(spec) < 149.0, lambda _: True, missing)
-    spec = spec_of("S2")
-    (words,) = changes_that_work(spec, ways_of(rotary_spec(spec.model)), judges, quiet)
+    judges = Judges(lambda _: True, lambda _: True, design)
+    (words,) = changes_that_work(spec_of("S2"), [[SOFTER]], judges, quiet)
     assert words.endswith(" and raise camshaft.backlash to 0.1 mm")
+
+
+def told_of_s1(is_possible: Callable[[Spec], bool]) -> tuple[str, ...]:
+    """Advice for S1 where whatever is possible can be designed."""
+    spec = spec_of("S1", "flexures.style=auto", "flexures.root_fillet=auto")
+    judges = Judges(is_possible, lambda _: True, lambda _: Verdict())
+    return changes_that_work(spec, rounds_of(rotary_spec(spec.model), ()), judges, quiet)
+
+
+def test_two_numbers_are_changed_where_one_alone_does_not_help() -> None:
+    def both(spec: Spec) -> bool:
+        model = rotary_spec(spec.model)
+        return int(model.flexures.count) <= 20 and float(model.envelope.contact_radius) > 6.5e-3
+
+    assert told_of_s1(both) == (
+        "lower flexures.count from 24 to 20 and raise envelope.contact_radius from 6 to 6.6 mm",
+    )
+
+
+def test_a_number_is_changed_beyond_its_double_where_nothing_else_helps() -> None:
+    far = told_of_s1(lambda spec: deflection(spec) < 5.0)
+    assert far == ("lower target.deflection from 12.56 to 4.8 deg",)
+
+
+@pytest.mark.parametrize(
+    ("key", "limit", "value"),
+    [
+        ("target.deflection", math.radians(12.5), "12.49 deg"),
+        ("target.deflection", math.radians(12.5012), "12.5 deg"),
+        ("flexures.min_gap", 0.2533e-3, "0.25 mm"),
+    ],
+)
+def test_a_limit_that_was_found_is_advised_to_the_hundredth_below(
+    key: str, limit: float, value: str
+) -> None:
+    model = rotary_spec(spec_of("S1", "flexures.min_gap=0.4 mm").model)
+    (change,) = KNOB[key].lowered_below(model, limit)
+    assert change.overrides == (f"{key}={value}",)
+    assert KNOB[key].lowered_below(model, 1.0) == ()
+
+
+def test_a_joint_is_told_the_limit_of_the_joint() -> None:
+    """Two springs in series turn twice as far as each, the limit of which is in the message."""
+    model = rotary_spec(spec_of("rotary-stack", "target.deflection=25 deg").model)
+    case = case_of(model).shifted
+    with pytest.raises(InfeasibleError) as refused:
+        size_flexure(model, case, design_law(case.inputs), target_of(model), quiet)
+    (change,) = given_by(refused.value, model)
+    (limit,) = re.findall(r"lower target\.deflection from 25 to ([0-9.]+) deg", change.words)
+    assert 0.0 < 2.0 * math.degrees(refused.value.limit) - float(limit) <= 0.01
+    lowered = rotary_spec(changed_spec(spec_of("rotary-stack"), change.overrides).model)
+    case = case_of(lowered).shifted
+    assert size_flexure(lowered, case, design_law(case.inputs), target_of(lowered), quiet).level < 1
+
+
+@pytest.mark.parametrize(
+    ("gap", "bend", "factor", "claim"),
+    [(0.1e-3, 0.3, 1.6, GAP), (0.29e-3, 0.6, 1.6, BEND), (0.29e-3, 0.31, 1.0, "serpentine factor")],
+)
+def test_control_points_name_the_limit_that_is_missed_by_most(
+    gap: float, bend: float, factor: float, claim: str
+) -> None:
+    problem = problem_for("S2", 0.3, serpentine_factor=1.6)
+    nearest = ControlPointOutcome(
+        feasible=False, violation=1.0, knots=np.zeros((4, 2)), ribbon=straight_ribbon(problem),
+        cost=0.0, smallest_gap=gap, largest_bend=bend, serpentine_factor=factor, starts=1,
+        feasible_starts=0, variables=np.zeros(5),
+    )  # fmt: skip
+    told = limit_of(NoShapeError("searches", problem, nearest), Optimiser(), 0.3e-3)
+    assert told.claim.startswith(claim)
+
+
+def test_a_search_for_control_points_that_ends_nowhere_says_what_it_missed() -> None:
+    """Bends of 0.05 cannot store the energy of S2 in two waves."""
+    problem = problem_for("S2", 0.05)
+    nearest = optimise_control_points(problem, starts=1, seed=1)
+    assert not nearest.feasible
+    told = limit_of(NoShapeError("searches", problem, nearest), Optimiser(starts=1), 0.3e-3)
+    assert told.claim.startswith((GAP, BEND, "serpentine factor"))
+    assert told.value != pytest.approx(told.limit, rel=0.01)
 
 
 @pytest.mark.parametrize("stiffness", [5, 20, 60])

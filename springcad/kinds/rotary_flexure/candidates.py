@@ -15,7 +15,7 @@ import numpy as np
 from springcad.kinds.rotary_flexure.aim import Aim, Pair, Trial
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs
 from springcad.kinds.rotary_flexure.case import STRAIGHT_TOLERANCE
-from springcad.kinds.rotary_flexure.feasibility import STRAIGHT_ROOM, failures
+from springcad.kinds.rotary_flexure.feasibility import STRAIGHT_ROOM, failures, follows_law
 from springcad.kinds.rotary_flexure.inputs import number, target_of
 from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
 from springcad.kinds.rotary_flexure.room import hub_shear_stress
@@ -103,6 +103,8 @@ def candidate(aim: Aim, pair: Pair) -> Candidate | None:
 
     serpentine = aim.spec.flexures.style == "serpentine"
     lowest = aim.lowest
+    if not follows_law(aim.at(pair, lowest).case):
+        return None
     if too_stiff(lowest):
         lowest = last_level(lowest, highest, too_stiff) + 1
     if lowest > highest or forbidden(aim.at(pair, lowest), room):

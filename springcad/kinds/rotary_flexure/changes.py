@@ -1,21 +1,16 @@
-"""Changes of a spec that may make it feasible, each as it would be typed, the mildest first."""
+"""Changes of a spec, each as it would be typed."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from springcad.kinds.rotary_flexure.law_easing import eased_laws
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 
-FACTORS = (
-    1.01, 1.02, 1.03, 1.04, 1.06, 1.08, 1.1, 1.13, 1.16, 1.2, 1.25, 1.3, 1.4, 1.5, 1.6, 1.75, 2.0,
-    2.3, 2.6, 3.0, 4.0, 5.0,
-)  # fmt: skip
-"""By which numbers are raised and lowered."""
 DIGITS = 3
 """Of a number that is changed."""
+_MM = 1e-3
 
 
 @dataclass(frozen=True)
@@ -26,7 +21,8 @@ class Change:
         key: of the spec.
         overrides: as after ``--set``.
         words: what to do, for people.
-        size: by how much, 0 for nothing; the same for halving and doubling.
+        size: by how much, the same for halving and doubling; 0 for what is no number, and for a
+            limit that was found.
     """
 
     key: str
@@ -42,7 +38,7 @@ class Change:
     def also(self, other: Change) -> Change:
         """Both changes together."""
         overrides, words = (*self.overrides, *other.overrides), f"{self.words} and {other.words}"
-        return Change(self.key, overrides, words, self.size + other.size)
+        return Change(f"{self.key}, {other.key}", overrides, words, self.size + other.size)
 
 
 @dataclass(frozen=True)
@@ -55,74 +51,47 @@ class Knob:
     upwards: bool = True
     downwards: bool = True
 
+    def start(self, spec: RotaryFlexureSpec) -> float | None:
+        """The number as it would be typed; None where the spec gives none or leaves it open."""
+        value: object = spec
+        for name in self.key.split("."):
+            value = getattr(value, name, None)
+        if not isinstance(value, (int, float)) or value <= 0.0:
+            return None
+        return value / self.scale
 
-_DEG, _MM = math.pi / 180.0, 1e-3
-KNOBS = (
-    Knob("target.deflection", "deg", _DEG),
-    Knob("flexures.bend_limit", "", 1.0, downwards=False),
-    Knob("envelope.thickness", "mm", _MM),
-    Knob("stack.sheet", "mm", _MM),
-    Knob("flexures.count", "", 1.0),
-    Knob("envelope.contact_radius", "mm", _MM),
-    Knob("envelope.root_radius", "mm", _MM),
-    Knob("envelope.outer_radius", "mm", _MM, downwards=False),
-    Knob("flexures.tip_thickness", "mm", _MM),
-    Knob("target.stiffness", "N*m/rad", 1.0),
-    Knob("mounting.dowels.radius", "mm", _MM, upwards=False),
-    Knob("camshaft.bore_radius", "mm", _MM, upwards=False),
-    Knob("camshaft.backlash", "mm", _MM),
-    Knob("camshaft.min_tooth", "mm", _MM, upwards=False),
-    Knob("flexures.min_gap", "mm", _MM, upwards=False),
-    Knob("flexures.min_deformed_gap", "mm", _MM, upwards=False),
-    Knob("flexures.root_fillet", "mm", _MM, upwards=False),
-    Knob("flexures.fillet_stress", "MPa", 1e6, downwards=False),
-    Knob("material.design_stress", "MPa", 1e6, upwards=False),
-)
-"""What may be changed. The design stress may only be lowered: raising it is not a cure."""
+    def turned(
+        self, spec: RotaryFlexureSpec, way: int, factors: Sequence[float]
+    ) -> tuple[Change, ...]:
+        """The number changed step by step, as far as it changes at all when it is rounded.
 
-
-def ways_of(spec: RotaryFlexureSpec) -> Iterator[tuple[Change, ...]]:
-    """Every way to change the spec, from mild to far: one number, the style or the law."""
-    if spec.flexures.style != "auto":
-        yield tuple(_set("flexures.style", style) for style in ("straight", "auto")
-                    if style != spec.flexures.style)  # fmt: skip
-    if spec.target.law is not None and not isinstance(spec.target.deflection, str):
-        yield tuple(
-            _eased(share, law) for share, law in eased_laws(spec.target.law, spec.target.deflection)
+        Args:
+            way: 1 upwards, -1 downwards.
+        """
+        start = self.start(spec)
+        if start is None or not (self.upwards if way > 0 else self.downwards):
+            return ()
+        digits = DIGITS - 1 - math.floor(math.log10(start)) if self.unit or start < 1.0 else 0
+        values = dict.fromkeys(round(start * factor**way, digits) for factor in factors)
+        return tuple(
+            self._to(start, value, abs(math.log(value / start)))
+            for value in values
+            if (value - start) * way > 0.0 and value > 0.0
         )
-    for knob in KNOBS:
-        start = _number(spec, knob)
-        if start is None:
-            continue
-        if knob.upwards:
-            yield _turned(knob, start, 1)
-        if knob.downwards:
-            yield _turned(knob, start, -1)
-    if not isinstance(spec.flexures.root_fillet, str):
-        yield (_set("flexures.root_fillet", "auto"),)
 
+    def lowered_below(self, spec: RotaryFlexureSpec, limit: float) -> tuple[Change, ...]:
+        """The number lowered to the next hundredth below a limit (SI) that was found for it."""
+        start = self.start(spec)
+        value = (math.ceil(round(100.0 * limit / self.scale, 6)) - 1) / 100.0
+        if start is None or not 0.0 < value < start:
+            return ()
+        return (self._to(start, value, 0.0),)
 
-def _set(key: str, value: str) -> Change:
-    return Change.of(key, value, f"set {key} to {value}", 0.0)
-
-
-def _eased(share: float, law: str) -> Change:
-    part = "all" if share == 1.0 else f"{share:.0%}"
-    words = (
-        f"set target.law to {law} ({part} of the law replaced by a constant stiffness that ends "
-        "at the same torque)"
-    )
-    return Change.of("target.law", law, words, share)
-
-
-def _number(spec: RotaryFlexureSpec, knob: Knob) -> float | None:
-    """The number as it would be typed; None where the spec gives none or leaves it open."""
-    value: object = spec
-    for name in knob.key.split("."):
-        value = getattr(value, name, None)
-    if not isinstance(value, (int, float)) or value <= 0.0:
-        return None
-    return value / knob.scale
+    def _to(self, start: float, value: float, size: float) -> Change:
+        unit = f" {self.unit}" if self.unit else ""
+        verb = "raise" if value > start else "lower"
+        words = f"{verb} {self.key} from {start:.4g} to {value:g}{unit}"
+        return Change.of(self.key, f"{value:g}{unit}", words, size)
 
 
 def more_backlash(spec: RotaryFlexureSpec, more: float) -> Change:
@@ -131,21 +100,3 @@ def more_backlash(spec: RotaryFlexureSpec, more: float) -> Change:
     value = math.ceil(100.0 * (now + more / _MM)) / 100.0
     words = f"raise camshaft.backlash from {now:.4g} to {value:g} mm"
     return Change.of("camshaft.backlash", f"{value:g} mm", words, 0.0)
-
-
-def _turned(knob: Knob, start: float, way: int) -> tuple[Change, ...]:
-    """A number changed step by step, as far as it changes at all when it is rounded."""
-    digits = 0 if knob.key == "flexures.count" else DIGITS - 1 - math.floor(math.log10(start))
-    values = (round(start * factor**way, digits) for factor in FACTORS)
-    unit = f" {knob.unit}" if knob.unit else ""
-    verb = "raise" if way > 0 else "lower"
-    return tuple(
-        Change.of(
-            knob.key,
-            f"{value:g}{unit}",
-            f"{verb} {knob.key} from {start:.4g} to {value:g}{unit}",
-            abs(math.log(value / start)),
-        )
-        for value in dict.fromkeys(values)
-        if (value - start) * way > 0.0 and value > 0.0
-    )

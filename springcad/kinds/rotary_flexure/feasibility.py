@@ -259,6 +259,11 @@ def failures(case: Case, straight_room: float = STRAIGHT_ROOM) -> tuple[str, ...
     )
 
 
+def follows_law(case: Case) -> bool:
+    """Whether the contact can move as the torque law asks; without that there is no design law."""
+    return all(claim.status != "fail" for claim in _stiffening(case))
+
+
 def _is_spec(case: Case) -> bool:
     """Whether a spec may say so; of a case that none may, few claims are looked at."""
     return case.inputs.contact_radius < case.inputs.root_radius < case.outer_radius

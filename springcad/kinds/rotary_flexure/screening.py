@@ -62,6 +62,11 @@ class _Shape:
     allowance: Floats
 
 
+def has_room(trial: Trial) -> bool:
+    """Whether the best shape on the design law leaves the gaps wanted, at rest and at full load."""
+    return _left(trial, None)[1] >= 0.0
+
+
 def screened(aim: Aim, candidate: Candidate) -> Screened | None:
     """What the ring reaches on the design law; None where no shape is found at all."""
     pair, levels = candidate.pair, list(_levels(aim, candidate))

@@ -27,6 +27,8 @@ from springcad.optimise.sqp import solve_from_many
 SHARPEST = 0.6
 """Largest bend limit that a spec may give."""
 BEND_STEP = 0.01
+SEARCHES = 3
+"""To name a limit fewer searches are made than to find a shape."""
 GAP = "gap between neighbouring flexures in the best shape found"
 BEND = "half thickness x curvature in the flattest shape found"
 
@@ -51,6 +53,7 @@ def limit_of(miss: NoShapeError, settings: Optimiser, min_gap: float) -> Infeasi
     """The refusal with the limit that stops the search; ``min_gap`` (m) is the gap wanted."""
     if miss.nearest is not None:
         return _of_control_points(miss, miss.nearest, min_gap)
+    settings = settings.model_copy(update={"starts": min(settings.starts, SEARCHES)})
     gap = _largest_gap(miss.problem, settings)
     if gap is not None and gap < min_gap:
         return _told(miss, GAP, gap, min_gap, "m")
