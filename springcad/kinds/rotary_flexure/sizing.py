@@ -97,8 +97,8 @@ def size_flexure(
     """
     progress("searching for the shape of the flexures")
     sized = corrected_for(spec, case, target, find_shape(spec, case, law, progress), progress)
-    _require_strength(spec, case, sized, progress)
     _require_room(spec, case, sized)
+    _require_strength(spec, case, sized, progress)
     return sized
 
 
