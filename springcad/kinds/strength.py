@@ -137,7 +137,7 @@ def _bounded(case: Lasting, name: str) -> str:
     """What to do where the stress of another place is more than the life allows."""
     key, stress = case.loading.keys.get(name), show(case.strength.stress, STRESS)
     knob = f"{key} bounds it, to {stress} if there is room; or " if key else ""
-    return f"{knob}test parts, or ask for more material.life.cycles"
+    return f"{knob}test parts"
 
 
 def _size(section: tuple[float, float], strength: FatigueStrength) -> Check:

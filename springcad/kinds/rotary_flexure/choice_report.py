@@ -119,7 +119,9 @@ def _words(choice: Choice) -> Iterator[str]:
             "the camshaft's teeth multiplied."
         )
     if above is not None and above.stop is not None:
-        value = _shown(aim.value(above.level), _UNITS[aim.objective])
+        level = aim.value(above.level)
+        margin = aim.objective == "margin"
+        value = f"{level:.0%}" if margin else _shown(level, _UNITS[aim.objective])
         yield f"At {value} this ring is stopped by: {_stop_words(above.stop)}."
     fences = "; ".join(_fences(choice))
     if fences:

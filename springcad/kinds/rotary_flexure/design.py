@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Profile
 from springcad.geometry.outline_ops import profile_area, profile_faults
 from springcad.geometry.ribbon import Ribbon
 from springcad.kinds.rotary_flexure.camshaft import CamshaftInputs, design_camshaft
-from springcad.kinds.rotary_flexure.case import Case
+from springcad.kinds.rotary_flexure.case import Case, resolved_style
 from springcad.kinds.rotary_flexure.checks import full_load_gaps
-from springcad.kinds.rotary_flexure.feasibility import require_feasible
+from springcad.kinds.rotary_flexure.feasibility import failures, require_feasible
 from springcad.kinds.rotary_flexure.inputs import case_of, target_of
 from springcad.kinds.rotary_flexure.law import design_law
 from springcad.kinds.rotary_flexure.response import stroke
@@ -28,7 +30,31 @@ def build_spring(spec: RotaryFlexureSpec, progress: Progress) -> Spring:
         InfeasibleError: no part can meet the spec.
     """
     case = case_of(spec).shifted
-    return spring_of(spec, case, require_feasible(case), progress)
+    feasibility = require_feasible(case)
+    try:
+        return spring_of(spec, case, feasibility, progress)
+    except InfeasibleError:
+        other = _other_style(case)
+        if other is None:
+            raise
+        try:
+            return spring_of(spec, other, feasibility, progress)
+        except InfeasibleError:
+            pass
+        raise
+
+
+def _other_style(case: Case) -> Case | None:
+    """The case with the style that ``auto`` has not taken, where closed forms allow that too.
+
+    Where straight flexures are just too strong or just too weak, one style may do in which the
+    closed forms do not see it.
+    """
+    if case.style != "auto":
+        return None
+    taken = resolved_style(design_law(case.inputs), case.style)
+    other = replace(case, style="straight" if taken == "serpentine" else "serpentine")
+    return None if failures(other) else other
 
 
 def spring_of(

@@ -35,7 +35,8 @@ TORQUE_TOLERANCE = 0.01
 STRESS_TOLERANCE = 0.05
 """The curved-beam factor is within 2 % of finite elements, their own stress within 1 %."""
 GAP_TOLERANCE = 1.5e-4
-"""Over the outer radius: 5 um for a ring of 33 mm, less than a cut resolves."""
+"""Over the outer radius: 5 um for a ring of 33 mm, less than a cut resolves; for small rings what a
+drawing may lie beside its design."""
 PRESSURE_TOLERANCE = 0.15
 """The largest is within 4 %, others within 1 % but where the end of the strip just meets the round
 nose: there a sliver of it decides, and a micrometre of the place of contact."""
@@ -115,7 +116,7 @@ def _comparisons(
 ) -> Iterator[Comparison]:
     """Comparisons of all that is judged, with ``pressed`` of the contact pressure too."""
     every = [(stroke.sector, turn) for stroke in strokes for turn in stroke.turns]
-    gap_tolerance = GAP_TOLERANCE * reported.spring.sector.outer_radius
+    gap_tolerance = max(GAP_TOLERANCE * reported.spring.sector.outer_radius, OUTLINE_TOLERANCE)
     last = [(stroke.sector, stroke.turns[-1]) for stroke in strokes if stroke.turns]
 
     def compared(

@@ -68,9 +68,9 @@ def straight_alternatives(case: Case) -> tuple[StraightAlternative, ...]:
     """The straight ring nearest to the case, and the one with the largest smallest margin.
 
     Searched over every count and a grid of contact radii, 0.1 mm for a root radius of 26 mm.
-    Margins are the ratios to the design stress, the thinnest web, the smallest gap and the torsion
-    limit of the camshaft (yield and design stress over sqrt(3)). Empty when no straight ring will
-    do; one if both are the same.
+    Margins are the ratios to the design stress, the thinnest web and tooth, the smallest gap and
+    the torsion limit of the camshaft (yield and design stress over sqrt(3)). Empty when no straight
+    ring will do; one if both are the same.
     """
     radius, count = _grid(case)
     if not radius.size or not count.size:
@@ -142,7 +142,7 @@ class _Rings:
         core = self.contact_radius - inputs.tip_half_thickness - case.camshaft_bore_radius
         ratios = (
             inputs.design_stress / self.stress,
-            self.tooth_width / case.min_web,
+            self.tooth_width / max(case.min_tooth, case.min_web),
             self.gap / case.min_gap,
             core / case.min_web,
             min(case.yield_strength, inputs.design_stress) / math.sqrt(3.0) / self.hub_shear,

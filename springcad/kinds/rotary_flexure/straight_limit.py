@@ -12,11 +12,12 @@ from collections.abc import Callable
 
 from springcad.errors import InfeasibleError
 from springcad.kinds.rotary_flexure.case import Case
+from springcad.kinds.rotary_flexure.settling import EVEN
 
 STRAIGHT_LIMIT = "deflection, against that at which straight flexures reach the design stress"
 STRAIGHT_STRESS = "stress of straight flexures at full load, against the design stress"
-STRAIGHT_EXCESS = 0.001
-"""Share by which the stress may exceed the allowed one, as near as the stiffness is met."""
+STRAIGHT_EXCESS = EVEN
+"""Share by which the stress may exceed the allowed one, as that of any flexure."""
 CLOSE = 1e-4
 _SECANTS = 8
 _DIGITS = 2
