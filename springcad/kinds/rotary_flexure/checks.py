@@ -165,7 +165,7 @@ def _deformed_gap(spec: RotaryFlexureSpec, direction: int, gap: float) -> Check:
         f"gap between deformed flexures {_way(direction)}", gap, ">=", asked or DEFORMED_GAP, "m",
         source="polygons of the deformed flexures; below 0 they touch",
         otherwise="fail" if asked or not gap >= 0.0 else "warn",
-        remedy="lower target.deflection, or raise flexures.min_gap",
+        remedy="lower target.deflection",
     )  # fmt: skip
 
 

@@ -73,7 +73,12 @@ def _first_round(spec: RotaryFlexureSpec, found: Sequence[Change]) -> Iterator[W
     yield from ((change,) for change in found)
     style = OTHER_STYLE.get(spec.flexures.style)
     if style is not None:
-        yield (_set("flexures.style", style),)
+        other = _set("flexures.style", style)
+        yield (other,)
+        if style == "straight":
+            # They are quickly sized, and reach less.
+            lower = KNOB["target.deflection"].turned(spec, -1, FACTORS)
+            yield tuple(other.also(change) for change in lower)
     if spec.optimiser.form == "control-points":
         yield (_set("optimiser.form", "curvature"),)
     if not isinstance(spec.flexures.root_fillet, str):
