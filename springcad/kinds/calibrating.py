@@ -26,6 +26,7 @@ class Estimate:
         standard_error: of a fitted value, from the scatter of the points.
         model_error: largest change of a fitted value that an error of the model can make.
         held: why the value was not fitted; empty if it was.
+        doubt: why a fitted value is not passed on to the next design; empty if it is sure enough.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Estimate:
     standard_error: float = 0.0
     model_error: float = 0.0
     held: str = ""
+    doubt: str = ""
 
 
 @dataclass(frozen=True)

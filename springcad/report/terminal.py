@@ -85,6 +85,8 @@ def print_calibration(found: Calibration, file: Path, console: Console) -> None:
         if entry.held
     ]
     _print_list("Not fitted", held, console)
+    doubtful = [f"{entry.name} {entry.doubt}" for entry in found.estimates if entry.doubt]
+    _print_list("Doubtful", doubtful, console)
     _print_list("To know", found.notes, console)
     _print_files([file], console)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
@@ -152,6 +153,45 @@ def test_what_the_test_cannot_tell_is_held_and_said(
     assert "cannot be told from angle at rest (correlation" in held["torque at rest"]
     assert any("Were it 0.1 more, the modulus would be" in note for note in found["notes"])
     assert "friction:" not in found["text"]
+
+
+def loop_test(ring: Path, path: Path, half: float, noise: float = 0.05) -> Path:
+    """Of a linear spring of 0.94 of the stiffness, that loses twice ``half`` of every torque."""
+    angle = 12.7 * DEGREE * np.concatenate([np.linspace(*leg, 60) for leg in CYCLE])
+    loading = np.sign(angle) * np.repeat([1, -1, -1, 1], 60)
+    torque = 0.94 * 150.0 * angle * (1.0 + half * loading)
+    torque += np.random.default_rng(4).normal(0.0, noise, len(angle))
+    return write_curve(path, angle, torque)
+
+
+def test_doubtful_friction_is_fitted_but_not_passed_on(
+    ring: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    curve = loop_test(ring, tmp_path / "loop.csv", 0.047)
+    assert calibrate(ring, curve, "-o", tmp_path, "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    modulus, _, friction, *_ = found["estimates"]
+    assert modulus["value"] == pytest.approx(0.94 * 200e9, rel=5e-3)
+    assert modulus["doubt"] == friction["held"] == ""
+    assert "one coefficient does not explain what was measured" in friction["doubt"]
+    assert "2 x standard error = 0.05" in friction["doubt"]
+    assert "against a limit of 0.05" in friction["doubt"]
+    assert "friction" not in found["text"]
+    assert calibrate(ring, curve, "-o", tmp_path) == 0
+    assert "Doubtful" in capsys.readouterr().out
+    made = report(design(tmp_path, "second", "calibration: ring-calibration.yaml"))
+    assert made["design"]["elastic_modulus_Pa"] == pytest.approx(modulus["value"], rel=1e-6)
+
+
+def test_a_refusal_compares_what_is_over_the_limit(
+    ring: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    curve = loop_test(ring, tmp_path / "noise.csv", 0.0, noise=8.0)
+    assert calibrate(ring, curve, "-o", tmp_path) == 3
+    said = capsys.readouterr().err
+    numbers = re.search(r"2 x standard error = ([\d.]+) GPa against a limit of 6 GPa", said)
+    assert numbers is not None
+    assert float(numbers[1]) > 6.0
 
 
 def test_the_same_test_gives_the_same_file_and_another_replaces_nothing(

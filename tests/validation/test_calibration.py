@@ -145,6 +145,52 @@ def test_loading_alone_tells_no_friction() -> None:
     assert found.bench.modulus == pytest.approx(1.04, abs=0.01)
 
 
+LOOPS = {
+    "in proportion to torque": lambda part: 1.0,
+    "with the square of the angle": lambda part: 2.0 * part**2,
+    "only beyond 0.6 of the stroke": lambda part: 1.56 * (np.abs(part) > 0.6),
+    "a constant torque": lambda part: 0.5 / np.maximum(np.abs(part), 0.02),
+}
+"""Half the loop over the torque, by the part of the stroke; of the same energy all of them."""
+
+
+def loop_of(shape: str, loss: float) -> Points:
+    """Of 0.94 of the modulus in the mean of both branches; ``loss`` of a cycle over the work."""
+    model, noise = model_of("S1"), np.random.default_rng(6)
+    angle = model.reach * np.concatenate([np.linspace(*leg, 60) for leg in FULL_CYCLE])
+    travel = np.repeat([1, -1, -1, 1], 60)
+    mean = model.torque(Bench(modulus=0.94), angle, travel)
+    half = 0.5 * loss * mean * np.sign(angle) * travel * LOOPS[shape](angle / model.reach)
+    torque = mean + half + noise.normal(0.0, 0.05, len(angle))
+    lost = np.trapezoid(torque, angle) / np.trapezoid(np.abs(mean[:60]), angle[:60]) / 2.0
+    assert lost == pytest.approx(loss, rel=0.06)
+    return counted(model, angle, torque)
+
+
+@pytest.mark.parametrize(
+    ("shape", "loss"),
+    [(shape, loss) for shape in LOOPS for loss in (0.07, 0.094, 0.12)][:-1],
+)
+def test_a_loop_that_no_friction_explains_is_no_error_of_the_modulus(
+    shape: str, loss: float
+) -> None:
+    model = model_of("S1")
+    found = first_known(model, loop_of(shape, loss), Bench(), ("modulus",))
+    assert found is not None
+    assert "friction" in found.free
+    stated = max(2.0 * found.standard_error("modulus"), found.model_error("modulus"))
+    assert abs(found.bench.modulus - 0.94) < stated < 0.03
+
+
+def test_a_loop_too_strange_is_refused_though_the_modulus_is_right() -> None:
+    """The last of the loops above: what is left counts as an error, and comes to the limit."""
+    model, points = model_of("S1"), loop_of("a constant torque", 0.12)
+    assert first_known(model, points, Bench(), ("modulus",)) is None
+    found = fit(model, points, Bench(), ("modulus", "friction", "angle"))
+    assert 0.015 < found.standard_error("modulus") < 0.017
+    assert found.bench.modulus == pytest.approx(0.94, abs=0.003)
+
+
 def test_a_root_cannot_be_as_stiff_as_a_modulus_of_a_fifth_more() -> None:
     model = model_of("S1")
     points = counted(model, *recorded(model, Bench(modulus=1.2, friction=0.1), 5)[:2])

@@ -7,6 +7,10 @@ from the model's by ``MODEL_ERROR`` of the peak torque, root mean square, in the
 An estimate counts as known when twice the first and the second are both below a limit. This also
 finds what looks alike: two numbers that change the curve in nearly the same way have large model
 errors, however little the points scatter.
+
+Friction that is not known well, by noise or because one coefficient does not explain the loop,
+stays in the fit wherever the data tell it from the stiffness: left out, the loop would be scatter
+of the stiffness, of which the mean of loading and unloading tells.
 """
 
 from __future__ import annotations
@@ -38,6 +42,8 @@ BOUNDS = {
 _LIMITS = {"modulus": 0.03, "root": 2.5, "friction": 0.05}
 _OFFSET_LIMIT = 0.02
 _OTHERS = (("friction", "angle", "torque"), ("friction", "angle"), ("angle",), ("friction",), ())
+ALIKE = 0.9
+"""Correlation from which on two numbers are called alike."""
 END = 1e-3
 _NOTHING = 1e-9
 
@@ -122,13 +128,21 @@ def first_known(
 ) -> Fit | None:
     """The fit of ``wanted`` and as many others as can be known with them; None if there is none.
 
-    An offset of the torque is given up first: to a linear spring it is one of the angle.
+    An offset of the torque is given up first: to a linear spring it is one of the angle. Friction
+    may be unknown where it is told from what is wanted; it is then fitted all the same.
     """
     for others in _OTHERS:
         found = fit(model, points, start, (*wanted, *others))
-        if not unknown(model, found):
+        missing = unknown(model, found)
+        if not missing or (missing == ("friction",) and friction_apart(found, wanted)):
             return found
     return None
+
+
+def friction_apart(found: Fit, wanted: Sequence[str]) -> bool:
+    """Whether the test tells friction from ``wanted``: it does with loading and unloading."""
+    row = found.correlation[found.free.index("friction")]
+    return all(abs(row[found.free.index(name)]) < ALIKE for name in wanted)
 
 
 def at_end(found: Fit) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from springcad.kinds.calibrating import Calibration, Estimate, Stiffness
 from springcad.kinds.rotary_flexure.bench_fit import (
+    ALIKE,
     BOUNDS,
     MODEL_ERROR,
     Fit,
@@ -16,6 +17,7 @@ from springcad.kinds.rotary_flexure.bench_fit import (
     at_end,
     first_known,
     fit,
+    friction_apart,
     limit,
     scatter,
     unknown,
@@ -45,8 +47,6 @@ ANOTHER = 1.6
 LARGEST_SCATTER = 0.01
 """Of the peak torque; above it the model does not explain what was measured."""
 MORE_FRICTION = 0.1
-ALIKE = 0.9
-"""Correlation from which on two numbers are called alike."""
 NOT_WORSE = 1.05
 STIFFNESS = {"modulus": ("modulus",), "root": ("root",), "both": ("modulus", "root")}
 NAMES = {
@@ -81,7 +81,9 @@ def calibrate_spring(
     found = first_known(model, points, designed, wanted)
     if found is None:
         raise spec_error([file.problem(_refusal(model, points, designed, wanted))])
-    if ends := at_end(found):
+    # What is doubtful is not passed on, wherever it comes out.
+    doubtful = unknown(model, found)
+    if ends := [name for name in at_end(found) if name not in doubtful]:
         raise spec_error(file.problem(_too_far(found, name)) for name in ends)
     root = written.number("design.calibrated_root_coefficient")
     estimates = tuple(_estimates(model, points, designed, found, root))
@@ -139,9 +141,12 @@ def _require_own(model: BenchModel, designed: Bench, points: Points, file: Torqu
 
 def _refusal(model: BenchModel, points: Points, designed: Bench, wanted: tuple[str, ...]) -> str:
     """Why not even the stiffness can be told."""
-    tried = fit(model, points, designed, wanted)
     if len(wanted) == 1:
-        return f"{_SHORT[wanted[0]]} {_errors(model, tried, wanted[0])}: measure more of the stroke"
+        tried = fit(model, points, designed, (*wanted, "friction"))
+        if not friction_apart(tried, wanted):
+            tried = fit(model, points, designed, wanted)
+        return f"{_SHORT[wanted[0]]} {_errors(model, tried, wanted[0])}"
+    tried = fit(model, points, designed, wanted)
     _, correlation = tried.partner(wanted[0])
     return (
         f"{_SHORT[wanted[0]]} and {_SHORT[wanted[1]]} cannot be told apart (correlation "
@@ -162,22 +167,26 @@ def _too_far(found: Fit, name: str) -> str:
 
 
 def _errors(model: BenchModel, tried: Fit, name: str) -> str:
+    """The larger error against its limit, and what makes it so large."""
     scale = model.elastic_modulus if name == "modulus" else 1.0
-    numbers = [
-        scale * value
-        for value in (tried.standard_error(name), tried.model_error(name), limit(model, name))
-    ]
-    shown = [shown_value(value, _UNITS[name]) for value in numbers]
-    return (
-        f"is not known well enough (standard error {shown[0]}, by errors of the model up to "
-        f"{shown[1]}; limit {shown[2]})"
+    spread, by_model = 2.0 * tried.standard_error(name), tried.model_error(name)
+    error, most = (
+        shown_value(scale * value, _UNITS[name])
+        for value in (max(spread, by_model), limit(model, name))
     )
+    figure, cause = "model error", "measure more of the stroke"
+    if spread > by_model:
+        unlike = "one coefficient" if name == "friction" else "the model"
+        figure = "2 x standard error"
+        cause = f"{unlike} does not explain what was measured, or the points scatter"
+    return f"is not known well enough ({figure} = {error} against a limit of {most}): {cause}"
 
 
 def _estimates(
     model: BenchModel, points: Points, designed: Bench, found: Fit, root: float
 ) -> Iterator[Estimate]:
     """Every number of the bench; of the root the whole coefficient, ``root`` of it designed."""
+    doubtful = unknown(model, found)
     for name, words in NAMES.items():
         scale = model.elastic_modulus if name == "modulus" else 1.0
         offset = root if name == "root" else 0.0
@@ -190,6 +199,9 @@ def _estimates(
             standard_error=scale * found.standard_error(name) if fitted else 0.0,
             model_error=scale * found.model_error(name) if fitted else 0.0,
             held="" if fitted else _why_held(model, points, found, name),
+            doubt=f"{_errors(model, found, name)}; left out of the file"
+            if name in doubtful
+            else "",
         )
 
 
@@ -200,10 +212,12 @@ def _why_held(model: BenchModel, points: Points, found: Fit, name: str) -> str:
     alike = (
         f"{_SHORT[partner]} (correlation {correlation:.4f}, condition number {tried.condition:.0f})"
     )
-    if not unknown(model, tried):
+    if not (missing := unknown(model, tried)):
         return f"not asked for; could be told from {alike}"
     if abs(correlation) < ALIKE:
-        return _errors(model, tried, name)
+        if name in missing:
+            return _errors(model, tried, name)
+        return f"with it, {_SHORT[missing[0]]} {_errors(model, tried, missing[0])}"
     return f"cannot be told from {alike}"
 
 
@@ -219,6 +233,12 @@ def _notes(
         yield (
             f"Friction is held at {found.bench.friction:g}. Were it {MORE_FRICTION:g} more, "
             f"{_change(wanted[0], change)}: measure loading and unloading."
+        )
+    elif "friction" in unknown(model, found):
+        yield (
+            f"Friction is fitted so that the loop does not go into the {_SHORT[wanted[0]]}, which "
+            "is of the mean of loading and unloading; the coefficient is doubtful, and the next "
+            "design is not given it."
         )
     elif found.bench.friction < 0.0:
         yield "The friction fitted is below 0, which is none: the file has 0."

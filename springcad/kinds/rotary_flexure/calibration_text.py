@@ -21,6 +21,7 @@ _HEAD = """\
 def calibration_text(found: Calibration, written: WrittenDesign, file: TorqueFile) -> str:
     """The text of the file, from the estimates in the order modulus, root, friction, offsets."""
     modulus, root, friction, *offsets = found.estimates
+    rubs = not (friction.held or friction.doubt)
     keys = [
         ("design", json.dumps(written.name, ensure_ascii=False)),
         ("curve", json.dumps(_last_part(file.shown), ensure_ascii=False)),
@@ -29,13 +30,13 @@ def calibration_text(found: Calibration, written: WrittenDesign, file: TorqueFil
         *([] if modulus.held else [("elastic_modulus_error", _error(modulus))]),
         ("root_coefficient", f"{root.value:.6g}"),
         *([] if root.held else [("root_coefficient_error", _error(root))]),
-        *([] if friction.held else [("friction", f"{max(friction.value, 0.0):.6g}")]),
-        *([] if friction.held else [("friction_error", _error(friction))]),
+        *([("friction", f"{max(friction.value, 0.0):.6g}")] if rubs else []),
+        *([("friction_error", _error(friction))] if rubs else []),
     ]
     head = _HEAD.format(
         design=written.name,
         file=calibration_file(written.name),
-        friction="" if friction.held else " and camshaft.friction",
+        friction=" and camshaft.friction" if rubs else "",
     )
     told = [
         f"# {entry.name}: {shown_value(entry.value, entry.unit)}, of the bench alone"
