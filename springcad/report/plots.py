@@ -19,7 +19,7 @@ from springcad.report.display import display_unit, format_value, printable, type
 from springcad.result import Plot, Scale, Series
 
 _WIDTH, _HEIGHT = 480, 300
-_LEFT, _RIGHT, _TOP, _BOTTOM = 62, 468, 12, 252
+_LEFT, _RIGHT, _TOP, _BOTTOM = 62, 456, 12, 252
 _COLOURS = 6
 _TICKS = 6
 _FEW_DECADES = 4

@@ -15,7 +15,7 @@ from report_example import example_result
 from springcad.report.plots import legend, log_ticks, nice_ticks, plot_svg
 from springcad.result import Plot, Series
 
-FRAME_X, FRAME_Y = (62, 468), (12, 252)
+FRAME_X, FRAME_Y = (62, 456), (12, 252)
 
 
 def curves(svg, kind="curve"):
@@ -94,7 +94,7 @@ def test_all_curves_and_the_limit_lie_inside_the_frame(index):
     points = np.concatenate(drawn)
     assert ((points[:, 0] >= FRAME_X[0]) & (points[:, 0] <= FRAME_X[1])).all()
     assert ((points[:, 1] >= FRAME_Y[0]) & (points[:, 1] <= FRAME_Y[1])).all()
-    heights = re.findall(r'class="limit" d="M62 ([\d.]+)H468"', svg)
+    heights = re.findall(r'class="limit" d="M62 ([\d.]+)H456"', svg)
     assert len(heights) == (plot.limit is not None)
     assert all(FRAME_Y[0] <= float(h) <= FRAME_Y[1] for h in heights)
 
