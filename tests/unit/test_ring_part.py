@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 import shapely.affinity
-from rotary_cases import law_of, spring_of
+from rotary_cases import law_of, rotary_model, spring_of
 
 from springcad.errors import InfeasibleError
 from springcad.geometry.outline import Arc, Circle, Outline
@@ -21,6 +21,7 @@ from springcad.geometry.outline_ops import (
     profile_area,
     profile_faults,
 )
+from springcad.kinds.rotary_flexure.decision import given_by
 from springcad.kinds.rotary_flexure.ring import (
     Dowels,
     largest_fillet,
@@ -263,8 +264,9 @@ EASY = "target.deflection=10 deg"
 def test_a_fillet_that_does_not_fit_names_one_that_does() -> None:
     with pytest.raises(InfeasibleError, match="root fillet") as caught:
         spring_of("S1", EASY, "flexures.root_fillet=4 mm")
-    (remedy,) = caught.value.remedies
-    radius = remedy.removeprefix("lower flexures.root_fillet to ").split(" mm")[0]
+    asked = rotary_model("S1", EASY, "flexures.root_fillet=4 mm")
+    (change,) = given_by(caught.value, asked)
+    radius = change.overrides[0].removeprefix("flexures.root_fillet=").removesuffix(" mm")
     assert spring_of("S1", EASY, f"flexures.root_fillet={radius} mm").fillet * 1e3 == float(radius)
 
 

@@ -11,7 +11,7 @@ import pytest
 from rotary_cases import SPECS, rotary_model
 
 from springcad.errors import InfeasibleError
-from springcad.kinds.rotary_flexure.decision import decide
+from springcad.kinds.rotary_flexure.decision import decide, given_by
 from springcad.kinds.rotary_flexure.design import build_spring
 from springcad.kinds.rotary_flexure.full_load import demand_of, loads_of
 from springcad.kinds.rotary_flexure.inputs import case_of, target_of
@@ -88,7 +88,8 @@ def test_a_refusal_names_the_deflection_at_which_the_stress_is_the_design_stress
 
 def test_the_advice_is_the_limit_rounded_down_and_works() -> None:
     error = refusal("target.deflection=12.85 deg")
-    advised = re.search(r"lower target\.deflection from 12\.85 to ([0-9.]+) deg", error.remedies[0])
+    (change,) = given_by(error, rotary_model("S1", "target.deflection=12.85 deg"))
+    advised = re.search(r"lower target\.deflection from 12\.85 to ([0-9.]+) deg", change.words)
     assert advised is not None
     assert 0.0 <= math.degrees(error.limit) - float(advised[1]) < 0.01
     assert sized(f"target.deflection={advised[1]} deg").level <= 1.0

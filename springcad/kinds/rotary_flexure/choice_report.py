@@ -13,7 +13,6 @@ from springcad.kinds.rotary_flexure.candidates import forbidden, rounded_up
 from springcad.kinds.rotary_flexure.choosing import Choice
 from springcad.kinds.rotary_flexure.numbers import bound_of
 from springcad.kinds.rotary_flexure.rim import rim_check
-from springcad.kinds.rotary_flexure.straight_limit import STRAIGHT_LIMIT
 from springcad.kinds.rotary_flexure.tried import Design, Stop
 from springcad.result import Result, Value
 
@@ -124,9 +123,9 @@ def _words(choice: Choice) -> Iterator[str]:
         margin = aim.objective == "margin"
         value = f"{level:.0%}" if margin else _shown(level, _UNITS[aim.objective])
         words = _stop_words(above.stop)
-        if above.stop.claim == STRAIGHT_LIMIT:
-            # Of a joint in series the stop knows one sheet.
-            end = _shown(level * above.stop.limit / above.stop.value, "rad")
+        share = above.stop.straight_share
+        if share is not None and aim.objective == "deflection":
+            end = _shown(share * level, "rad")
             words = f"its straight flexures reach the design stress at {end}"
         yield f"At {value} this ring is stopped by: {words}."
     fences = "; ".join(_fences(choice))

@@ -23,7 +23,7 @@ from springcad.kinds.rotary_flexure.refusal import Judges, Verdict, changes_that
 from springcad.kinds.rotary_flexure.screening import has_room
 from springcad.kinds.rotary_flexure.search import find_shape
 from springcad.kinds.rotary_flexure.shape_refusal import NoShapeError, limit_of
-from springcad.kinds.rotary_flexure.sizing import size_flexure
+from springcad.kinds.rotary_flexure.sizing import FILLET_THAT_FITS, NEIGHBOURS, size_flexure
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.spring import Spring
 from springcad.kinds.rotary_flexure.stack import of_sheet, stack_of
@@ -35,8 +35,8 @@ from springcad.spec.source import Spec
 
 GIVEN_BY = {
     STRAIGHT_LIMIT: "target.deflection",
-    "gap between neighbouring flexures": "flexures.min_gap",
-    "root fillet that fits between neighbours": "flexures.root_fillet",
+    NEIGHBOURS: "flexures.min_gap",
+    FILLET_THAT_FITS: "flexures.root_fillet",
 }
 """Claims that name a number which will do, and the key of the number."""
 NOT_TRIED = 2

@@ -27,7 +27,6 @@ from springcad.kinds.rotary_flexure.full_load import demand_of, loads_of, stiffn
 from springcad.kinds.rotary_flexure.law import DesignLaw, design_law
 from springcad.kinds.rotary_flexure.problem import FlexureProblem
 from springcad.kinds.rotary_flexure.relief import Relief, allowed_share
-from springcad.kinds.rotary_flexure.ring import FILLET_STEP
 from springcad.kinds.rotary_flexure.root import Root, chosen_root, flexure_on, root_with
 from springcad.kinds.rotary_flexure.root_compliance import RootModel
 from springcad.kinds.rotary_flexure.search import Found, adapted, find_shape
@@ -35,9 +34,9 @@ from springcad.kinds.rotary_flexure.settling import CLOSE, EVEN, Settling
 from springcad.kinds.rotary_flexure.spec import RotaryFlexureSpec
 from springcad.kinds.rotary_flexure.straight_limit import (
     STRAIGHT_EXCESS,
+    STRAIGHT_LIMIT,
     STRAIGHT_STRESS,
     straight_limit,
-    straight_refusal,
 )
 from springcad.kinds.target_law import Law, law_of, polynomial
 from springcad.mechanics.beam import BeamStates, PreparedBeam
@@ -46,6 +45,9 @@ from springcad.result import Progress
 SOFTER = 0.9995
 """Stiffness at rest, over the wanted one, that the sizing aims at: a flexure that is too stiff
 would have to be touched beyond its nose."""
+FILLET_THAT_FITS = "root fillet that fits between neighbours"
+NEIGHBOURS = "gap between neighbouring flexures"
+"""Limits of room, each with the number that would do."""
 PASSES = 16
 SHAPED = 3
 """In the first passes the shape is optimised for its gap at full load; then it only follows the
@@ -216,24 +218,15 @@ def _require_strength(
         return corrected_for(spec, tried, target, found, progress).level
 
     progress("looking for the deflection that straight flexures reach")
-    raise straight_refusal(case, straight_limit(level, case.inputs.deflection, sized.level))
+    asked = case.inputs.deflection
+    limit = straight_limit(level, asked, sized.level)
+    raise InfeasibleError(STRAIGHT_LIMIT, asked, limit, "rad")
 
 
 def _require_room(spec: RotaryFlexureSpec, case: Case, sized: Sized) -> None:
     """Refuse a fillet or a gap that is smaller than asked for, with what is there."""
-    fillet = spec.flexures.root_fillet
+    fillet, gap = spec.flexures.root_fillet, sized.found.gap
     if not isinstance(fillet, str) and sized.fillet < fillet:
-        remedy = "set flexures.root_fillet to auto"
-        if sized.found.gap >= case.min_gap:
-            fits = 1e3 * (sized.fillet - FILLET_STEP)
-            remedy = f"lower flexures.root_fillet to {fits:g} mm, or set it to auto"
-        claim = "root fillet that fits between neighbours"
-        raise InfeasibleError(claim, sized.fillet, fillet, "m", (remedy,))
-    gap, asked = sized.found.gap, spec.flexures.min_gap
-    if gap >= case.min_gap:
-        return
-    remedies: tuple[str, ...] = ()
-    if asked is not None and gap >= spec.process.rules.min_gap:
-        there = math.floor(1e5 * gap) / 1e2
-        remedies = (f"lower flexures.min_gap from {1e3 * asked:.4g} to {there:g} mm",)
-    raise InfeasibleError("gap between neighbouring flexures", gap, case.min_gap, "m", remedies)
+        raise InfeasibleError(FILLET_THAT_FITS, sized.fillet, fillet, "m")
+    if gap < case.min_gap:
+        raise InfeasibleError(NEIGHBOURS, gap, case.min_gap, "m")

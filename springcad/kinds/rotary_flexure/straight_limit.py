@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from springcad.errors import InfeasibleError
-from springcad.kinds.rotary_flexure.case import Case
 from springcad.kinds.rotary_flexure.settling import EVEN
 
 STRAIGHT_LIMIT = "deflection, against that at which straight flexures reach the design stress"
@@ -20,8 +18,6 @@ STRAIGHT_EXCESS = EVEN
 """Share by which the stress may exceed the allowed one, as that of any flexure."""
 CLOSE = 1e-4
 _SECANTS = 8
-_DIGITS = 2
-"""Decimals of the degrees that are advised, rounded down."""
 
 
 def straight_limit(level: Callable[[float], float], deflection: float, here: float) -> float:
@@ -41,11 +37,3 @@ def straight_limit(level: Callable[[float], float], deflection: float, here: flo
         slope = (found - excess) / (there - at)
         at, excess = there, found
     return math.exp(at)
-
-
-def straight_refusal(case: Case, limit: float) -> InfeasibleError:
-    """The refusal of a case whose straight flexures reach less than it asks, ``limit`` (rad)."""
-    joint = math.degrees(case.stack.series)
-    reached = math.floor(limit * joint * 10**_DIGITS) / 10**_DIGITS
-    lower = f"lower target.deflection from {case.inputs.deflection * joint:.4g} to {reached:g} deg"
-    return InfeasibleError(STRAIGHT_LIMIT, case.inputs.deflection, limit, "rad", (lower,))
